@@ -1,0 +1,2 @@
+//! The command `conik`.
+fn main() {}

@@ -1,0 +1,4 @@
+//! Scenarios, the run loop and the log.
+pub mod arm;
+pub mod scenario;
+pub mod summary;

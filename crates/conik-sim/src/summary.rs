@@ -1,0 +1,149 @@
+//! What a run amounts to: `summary.json`.
+
+use std::collections::BTreeMap;
+
+use serde::{Deserialize, Serialize};
+
+use crate::scenario::Scenario;
+
+/// Version of the layout of `summary.json` and `log.csv`.
+pub const FORMAT: u32 = 1;
+
+/// What a run amounts to.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Summary {
+    /// [`FORMAT`].
+    pub format: u32,
+    /// Version of the program.
+    pub version: String,
+    /// The settings in force: the scenario after defaults and command-line overrides.
+    pub settings: Settings,
+    /// How the run ended.
+    pub outcome: Outcome,
+    /// Time of the last row of the log [s].
+    pub ended_at_s: f64,
+    /// The mode at t = 0 and every change of it.
+    pub modes: Vec<ModeChange>,
+    /// What became of each task, by name.
+    pub tasks: BTreeMap<String, TaskSummary>,
+    /// When each waypoint was reached [s], the last one's included; `None` if never.
+    pub waypoints_reached_s: Vec<Option<f64>>,
+    /// The five properties of Section VI of the paper.
+    pub properties: Properties,
+    /// Joint references after the last row [rad].
+    pub final_q_rad: Vec<f64>,
+    /// Time of the controller's step alone [µs].
+    pub step_time_us: StepTime,
+    /// Cycles of the arm's clock that went by without a reference.
+    pub deadline_misses: u64,
+    /// How closely the arm followed; `None` where nothing measures.
+    pub tracking: Option<Tracking>,
+    /// Ticks in which the speed limit of a joint scaled the velocity down.
+    pub speed_limited_ticks: u64,
+}
+
+/// The settings in force.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Settings {
+    /// The arm that was driven: `ideal`, `emulator`, or a host.
+    pub robot: String,
+    /// The scenario after defaults and overrides.
+    pub scenario: Scenario,
+    /// Names of the joints, base to tool.
+    pub joint_names: Vec<String>,
+    /// Unit of each scalar task's value, by name: `m`, `rad`, `-`.
+    pub units: BTreeMap<String, String>,
+}
+
+/// How the run ended.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(tag = "kind", rename_all = "snake_case")]
+pub enum Outcome {
+    /// The whole duration was run.
+    Completed,
+    /// A person stopped it.
+    Interrupted,
+    /// A fault stopped it.
+    Fault {
+        /// The fault's short name.
+        name: String,
+        /// What happened.
+        detail: String,
+    },
+}
+
+/// From this time on, these set-based tasks are active.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ModeChange {
+    /// Since when [s].
+    pub t_s: f64,
+    /// 1-based number in the mode order; `None` where it would not fit 64 bits.
+    pub mode: Option<u64>,
+    /// Names of the active set-based tasks, in list order.
+    pub active: Vec<String>,
+}
+
+/// What became of one task.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct TaskSummary {
+    /// Least value seen; `None` for a task of more than one dimension.
+    pub min: Option<f64>,
+    /// Greatest value seen; `None` for a task of more than one dimension.
+    pub max: Option<f64>,
+    /// Furthest outside its set [task's unit], 0 if never outside; `None` for an equality task.
+    pub worst_violation: Option<f64>,
+    /// First time inside its set [s]; `None` if never, or for an equality task.
+    pub entered_set_s: Option<f64>,
+    /// Norm of the error at the end; `None` for a set-based task.
+    pub final_error: Option<f64>,
+    /// For how long it was active [s]; `None` for an equality task.
+    pub active_s: Option<f64>,
+}
+
+/// The five properties that the paper's Section VI confirms.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Properties {
+    /// 1: all equality tasks converge to their desired value.
+    pub equality_converges: Property,
+    /// 2: high-priority sets that hold at the start hold for ever.
+    pub inside_stays: Property,
+    /// 3: high-priority sets that do not hold at the start freeze or come closer.
+    pub outside_never_worse: Property,
+    /// 4: once entered, they stay.
+    pub entered_stays: Property,
+    /// 5: low-priority sets may be left; how far.
+    pub low_priority_excess: Property,
+}
+
+/// One property: kept or not, and its worst moment.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Property {
+    /// `worst` is at most 1e-6 in the task's unit.
+    pub holds: bool,
+    /// The largest deviation from the property [task's unit].
+    pub worst: f64,
+    /// When that was [s].
+    pub at_s: Option<f64>,
+    /// Which task it was.
+    pub task: Option<String>,
+}
+
+/// Time of the controller's step alone [µs].
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct StepTime {
+    /// Half of the steps took less.
+    pub median: f64,
+    /// 99 % of the steps took less.
+    pub p99: f64,
+    /// The slowest.
+    pub max: f64,
+}
+
+/// How closely the arm followed its reference.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Tracking {
+    /// Largest |q_measured − q_ref| of each joint [rad].
+    pub max_rad: Vec<f64>,
+    /// Root mean square of q_measured − q_ref of each joint [rad].
+    pub rms_rad: Vec<f64>,
+}
