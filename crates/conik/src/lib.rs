@@ -1,3 +1,92 @@
-//! Set-based task-priority inverse kinematics.
-pub mod joints;
+//! Set-based task-priority inverse kinematics: a real-time kinematic controller for robot arms.
+//!
+//! # The problem
+//!
+//! A robot with joint positions q ∈ ℝⁿ has tasks σ(q), in decreasing priority. An *equality task*
+//! has a desired value σ_des; a *set-based task* is scalar and has an interval C = \[min, max\] of
+//! allowed values. Once per period T the controller chooses a joint velocity q̇ and integrates it to
+//! the next joint reference q + T q̇.
+//!
+//! While all sets hold, the equality tasks alone decide. With σ̇ᵢ = σ̇ᵢ,des + Λᵢ (σᵢ,des − σᵢ), Jacobians
+//! Jᵢ and N the null-space projector of all rows stacked above level i,
+//!
+//! ```text
+//! q̇ = Σᵢ N Jᵢ⁺ σ̇ᵢ
+//! ```
+//!
+//! A set-based task is ignored until it would leave its set: until it is at a border of C and J q̇
+//! points out of the tangent cone T_C(σ). Then it becomes *active*. Above the first equality task it
+//! is frozen, its row standing on top of the stack with reference zero; below, it is driven back to
+//! its border with a gain. The set of active tasks is the *mode*; [`Settings::mode_rule`] chooses it.
+//!
+//! The method is that of Moe, Antonelli, Pettersen and Schrimpf, *Experimental Results for
+//! Set-based Control within the Singularity-robust Multiple Task-priority Inverse Kinematics
+//! Framework*, IEEE ROBIO 2015. Equation numbers in this documentation are of that paper.
+//!
+//! # Use
+//!
+//! ```
+//! use conik::{Controller, Distance, Position, Robot, Settings, Stack};
+//!
+//! let robot = Robot::builtin("ur5-paper")?;
+//! let mut stack = Stack::new(&robot);
+//! stack.set("obstacle", Distance::of_tool_to([0.40, -0.25, -0.33]), 0.18..)?;
+//! let position = stack.equality("position", Position::of_tool(), &[0.486, -0.066, -0.250], 0.3)?;
+//!
+//! let mut controller = Controller::new(&robot, stack, Settings::at_rate(125.0))?;
+//! let mut q = conik::JointVec::from([-0.84, -2.76, -1.88, -1.57, -1.48, 0.0]);
+//! for _ in 0..125 * 60 {
+//!     q = controller.step(&q)?.q_ref;
+//! }
+//! assert!(controller.last_step().error_norm(position) < 1e-3);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! # Conventions
+//!
+//! Lengths are in metres, angles in radians, times in seconds. Everything is expressed in the base
+//! frame of the robot; poses are named by the frames they relate, `base_from_tool`.
+//!
+//! The crate needs no operating system: without the default feature `std` (and with `libm`) it is
+//! `no_std` and uses `alloc` at construction only.
+
+#![cfg_attr(not(feature = "std"), no_std)]
+
+extern crate alloc;
+
+mod active;
+mod cone;
+mod controller;
+mod evaluation;
+mod geometry;
+mod hierarchy;
+mod joints;
+mod kinematics;
+mod linalg;
+mod mode;
+mod monitor;
+mod real;
+mod robot;
+mod settings;
+mod stack;
+mod step;
+mod task;
+mod task_vectors;
+mod waypoints;
+
+pub use active::{ActiveSet, MAX_TASKS};
+pub use cone::Interval;
+pub use controller::{Controller, ControllerError, StepError};
+pub use geometry::{Pose, Vec3};
 pub use joints::{JointVec, MAX_JOINTS, TooManyJoints};
+pub use kinematics::{Frame, Kinematics};
+pub use mode::ModeOrder;
+pub use monitor::{Deviation, Monitor, PROPERTY_TOLERANCE, Properties, TaskHistory};
+pub use robot::{DhRow, Joint, JointKind, JointLimits, Robot, RobotError};
+pub use settings::{Border, ModeRule, Recursion, Settings};
+pub use stack::{Goal, Level, Setpoints, Stack, StackError, StackErrorReason, TaskId};
+pub use step::{SpeedLimit, Step};
+pub use task::{
+    Axis, Coordinate, Distance, FieldOfView, JacobianMut, JointPosition, Position, Task,
+};
+pub use waypoints::Waypoints;

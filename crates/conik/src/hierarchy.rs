@@ -1,0 +1,147 @@
+//! The joint velocity of a mode: null-space projections of one level under all levels above.
+//!
+//! With the rows of the active high-priority sets frozen on top, each further level adds
+//! N J⁺ σ̇_ref, N the null-space projector of all rows above it: Eqs. (19) to (34) of the paper
+//! (Chiaverini's singularity-robust form, ref. \[23\] there).
+
+use alloc::vec::Vec;
+
+use crate::active::ActiveSet;
+use crate::evaluation::Evaluation;
+use crate::linalg::{MinimumNorm, RowSpace, add_scaled};
+use crate::stack::{Goal, Stack, TaskId};
+
+#[derive(Debug)]
+pub(crate) struct Hierarchy {
+    /// Rows that the present candidate freezes, then, while a velocity is put together, the rows of
+    /// the levels above the present one.
+    above: RowSpace,
+    minimum_norm: MinimumNorm,
+    /// The equality tasks, and the sets below the first of them, in list order.
+    lower: Vec<TaskId>,
+    /// J⁺ σ̇_ref of each lower level: the same in every mode, so computed once per tick.
+    asked: Vec<f64>,
+    asked_known: Vec<bool>,
+    /// σ̇_ref of the level at hand.
+    rate: Vec<f64>,
+    /// N J⁺ σ̇_ref of the level at hand.
+    projected: Vec<f64>,
+    dof: usize,
+}
+
+impl Hierarchy {
+    pub(crate) fn new(stack: &Stack) -> Self {
+        let dof = stack.dof();
+        let max_rows = stack
+            .iter()
+            .map(|(_, l)| l.task().dimension())
+            .max()
+            .unwrap_or(1);
+        let lower: Vec<TaskId> = stack
+            .iter()
+            .map(|(id, _)| id)
+            .filter(|&id| !stack.is_high_priority(id))
+            .collect();
+        Self {
+            above: RowSpace::new(dof, max_rows),
+            minimum_norm: MinimumNorm::new(dof, max_rows),
+            asked: alloc::vec![0.0; lower.len() * dof],
+            asked_known: alloc::vec![false; lower.len()],
+            lower,
+            rate: alloc::vec![0.0; max_rows],
+            projected: alloc::vec![0.0; dof],
+            dof,
+        }
+    }
+
+    /// Forgets what belonged to another configuration.
+    pub(crate) fn begin_tick(&mut self) {
+        self.above.truncate(0);
+        self.asked_known.fill(false);
+    }
+
+    /// Freezes a high-priority set. `false` if its row depends on those frozen already: then
+    /// freezing it changes nothing.
+    pub(crate) fn freeze(
+        &mut self,
+        stack: &Stack,
+        evaluation: &mut Evaluation,
+        task: TaskId,
+    ) -> bool {
+        self.above.push(evaluation.jacobian(stack, task))
+    }
+
+    /// Number of independent frozen rows.
+    pub(crate) fn frozen(&self) -> usize {
+        self.above.rank()
+    }
+
+    /// Releases what was frozen after there were `frozen` rows.
+    pub(crate) fn release_to(&mut self, frozen: usize) {
+        self.above.truncate(frozen);
+    }
+
+    /// The velocity of the mode whose high-priority sets are the frozen ones and whose low-priority
+    /// sets are those in `active`.
+    pub(crate) fn velocity(
+        &mut self,
+        stack: &Stack,
+        evaluation: &mut Evaluation,
+        active: &ActiveSet,
+        velocity: &mut [f64],
+    ) {
+        let frozen = self.above.rank();
+        velocity.fill(0.0);
+        let mut rows_missing: Option<TaskId> = None;
+        for place in 0..self.lower.len() {
+            let task = self.lower[place];
+            if stack[task].interval().is_some() && !active.contains(task) {
+                continue;
+            }
+            // The rows of a level are stacked when there is a level below that must respect them.
+            if let Some(previous) = rows_missing.replace(task) {
+                self.above.push_block(evaluation.jacobian(stack, previous));
+            }
+            if !self.asked_known[place] {
+                self.ask(stack, evaluation, place);
+            }
+            let asked = &self.asked[place * self.dof..][..self.dof];
+            if self.above.rank() == 0 {
+                add_scaled(velocity, 1.0, asked);
+            } else {
+                self.projected.copy_from_slice(asked);
+                self.above.project_out(&mut self.projected);
+                add_scaled(velocity, 1.0, &self.projected);
+            }
+        }
+        self.above.truncate(frozen);
+    }
+
+    /// J⁺ σ̇_ref of one lower level.
+    fn ask(&mut self, stack: &Stack, evaluation: &mut Evaluation, place: usize) {
+        let task = self.lower[place];
+        let rate = &mut self.rate[..stack[task].task().dimension()];
+        match stack[task].goal() {
+            Goal::Equality {
+                desired_rate, gain, ..
+            } => {
+                for ((rate, error), feed_forward) in rate
+                    .iter_mut()
+                    .zip(evaluation.errors().of(task))
+                    .zip(desired_rate)
+                {
+                    *rate = feed_forward + gain * error;
+                }
+            }
+            Goal::Set { interval, gain } => {
+                // Eq. (28): towards the bound that was crossed. `Stack` insists on the gain.
+                let sigma = evaluation.scalar(task);
+                rate[0] = gain.unwrap_or(0.0) * (interval.nearest_bound(sigma) - sigma);
+            }
+        }
+        let asked = &mut self.asked[place * self.dof..][..self.dof];
+        self.minimum_norm
+            .solve(evaluation.jacobian(stack, task), rate, asked);
+        self.asked_known[place] = true;
+    }
+}

@@ -1,0 +1,46 @@
+//! The linear algebra that the recursion needs: orthonormal bases of row spaces, and minimum-norm
+//! least squares. Both decide ranks; neither allocates after construction.
+
+mod minimum_norm;
+mod row_space;
+
+pub(crate) use minimum_norm::MinimumNorm;
+pub(crate) use row_space::RowSpace;
+
+/// A row that keeps less than this share of its length beside the rows before it depends on them.
+///
+/// Exactly dependent rows keep some 1e-16; a share of 1e-10 would already mean joint velocities
+/// ten orders of magnitude above the task's.
+const RANK_TOLERANCE: f64 = 1e-10;
+
+/// A row that keeps at least this share of its length after projection is orthogonal to rounding;
+/// one that keeps less is projected once more ("twice is enough", Giraud et al. 2005).
+const ENOUGH_LENGTH_KEPT: f64 = 0.7;
+
+/// Rows shorter than this have no direction: their squared length is not a normal number.
+const NO_LENGTH: f64 = 1e-150;
+
+#[inline]
+pub(crate) fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
+
+/// `y += factor * x`
+#[inline]
+pub(crate) fn add_scaled(y: &mut [f64], factor: f64, x: &[f64]) {
+    for (y, x) in y.iter_mut().zip(x) {
+        *y += factor * x;
+    }
+}
+
+/// Index of the longest row.
+fn longest(rows: &[f64], dof: usize) -> usize {
+    let mut best = (0, 0.0);
+    for (i, row) in rows.chunks_exact(dof).enumerate() {
+        let squared = dot(row, row);
+        if squared > best.1 {
+            best = (i, squared);
+        }
+    }
+    best.0
+}

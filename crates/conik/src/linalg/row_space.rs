@@ -1,0 +1,207 @@
+//! An orthonormal basis of the rows stacked so far, and the projector on their null space.
+//!
+//! The null-space matrix N = I − J⁺J of stacked rows J depends on their span alone. With an
+//! orthonormal basis Q of that span N = I − QᵀQ, whatever the rank of J: rows that depend on those
+//! before them add nothing to Q. Nothing here is ever damped, so N is a projector and rows that are
+//! in the basis stay frozen to rounding.
+
+use alloc::vec::Vec;
+
+use super::{ENOUGH_LENGTH_KEPT, NO_LENGTH, RANK_TOLERANCE, add_scaled, dot};
+use crate::joints::MAX_JOINTS;
+use crate::real::sqrt;
+
+#[derive(Debug)]
+pub(crate) struct RowSpace {
+    /// Orthonormal rows, one after the other.
+    basis: Vec<f64>,
+    /// Rows of a block that wait for their turn, see `push_block`.
+    block: Vec<f64>,
+    dof: usize,
+    rank: usize,
+}
+
+impl RowSpace {
+    /// The empty span in `dof` dimensions; blocks may have up to `max_rows` rows.
+    pub(crate) fn new(dof: usize, max_rows: usize) -> Self {
+        Self {
+            basis: alloc::vec![0.0; dof * dof],
+            block: alloc::vec![0.0; dof * max_rows],
+            dof,
+            rank: 0,
+        }
+    }
+
+    #[inline]
+    pub(crate) fn rank(&self) -> usize {
+        self.rank
+    }
+
+    /// Forgets all rows but the first `rank` of the basis.
+    #[inline]
+    pub(crate) fn truncate(&mut self, rank: usize) {
+        debug_assert!(rank <= self.rank);
+        self.rank = rank;
+    }
+
+    /// Adds one row. `false` if it depends on the rows before it and so adds nothing.
+    pub(crate) fn push(&mut self, row: &[f64]) -> bool {
+        self.block[..self.dof].copy_from_slice(row);
+        project_out(
+            &self.basis[..self.rank * self.dof],
+            &mut self.block[..self.dof],
+        );
+        self.push_from_block(0, sqrt(dot(row, row)))
+    }
+
+    /// Adds a block of rows, at each turn the one of which most is left, so that the rank of the
+    /// block is decided by its best-conditioned rows.
+    pub(crate) fn push_block(&mut self, rows: &[f64]) {
+        let (dof, count) = (self.dof, rows.len() / self.dof);
+        let mut lengths = [0.0; MAX_JOINTS];
+        self.block[..rows.len()].copy_from_slice(rows);
+        for (row, length) in self.block.chunks_exact_mut(dof).zip(&mut lengths[..count]) {
+            *length = sqrt(dot(row, row));
+            project_out(&self.basis[..self.rank * dof], row);
+        }
+        for next in 0..count {
+            if self.rank == dof {
+                return;
+            }
+            let best = super::longest(&self.block[next * dof..count * dof], dof) + next;
+            if best != next {
+                let (before, from_best) = self.block.split_at_mut(best * dof);
+                before[next * dof..][..dof].swap_with_slice(&mut from_best[..dof]);
+                lengths.swap(next, best);
+            }
+            if self.push_from_block(next, lengths[next]) {
+                let newest = &self.basis[(self.rank - 1) * dof..][..dof];
+                for row in self.block[(next + 1) * dof..count * dof].chunks_exact_mut(dof) {
+                    project_out(newest, row);
+                }
+            }
+        }
+    }
+
+    /// Takes row `i` of the block, projected already, into the basis unless too little is left of
+    /// its original `length`.
+    fn push_from_block(&mut self, i: usize, length: f64) -> bool {
+        if self.rank == self.dof || !(length > NO_LENGTH) {
+            return false;
+        }
+        let (basis, free) = self.basis.split_at_mut(self.rank * self.dof);
+        let row = &mut self.block[i * self.dof..][..self.dof];
+        let mut left = sqrt(dot(row, row));
+        if left < ENOUGH_LENGTH_KEPT * length {
+            project_out(basis, row);
+            left = sqrt(dot(row, row));
+        }
+        if !(left > RANK_TOLERANCE * length) {
+            return false;
+        }
+        for (new, value) in free.iter_mut().zip(row.iter()) {
+            *new = value / left;
+        }
+        self.rank += 1;
+        true
+    }
+
+    /// v ← N v: takes out of `v` what would move any of the stacked rows.
+    #[inline]
+    pub(crate) fn project_out(&self, v: &mut [f64]) {
+        project_out(&self.basis[..self.rank * self.dof], v);
+    }
+}
+
+#[inline]
+fn project_out(basis: &[f64], v: &mut [f64]) {
+    for row in basis.chunks_exact(v.len()) {
+        let along = dot(row, v);
+        add_scaled(v, -along, row);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn norm(v: &[f64]) -> f64 {
+        dot(v, v).sqrt()
+    }
+
+    proptest! {
+        #[test]
+        fn projected_vectors_move_no_stacked_row(
+            rows in prop::collection::vec(-1.0..1.0f64, 6 * 4),
+            v in prop::collection::vec(-1.0..1.0f64, 6),
+        ) {
+            let mut space = RowSpace::new(6, 6);
+            space.push(&rows[..6]);
+            space.push_block(&rows[6..]);
+            let mut projected = v.clone();
+            space.project_out(&mut projected);
+            for row in rows.chunks_exact(6) {
+                prop_assert!(dot(row, &projected).abs() <= 1e-14);
+            }
+        }
+
+        #[test]
+        fn projecting_twice_is_projecting_once(
+            rows in prop::collection::vec(-1.0..1.0f64, 6 * 3),
+            v in prop::collection::vec(-1.0..1.0f64, 6),
+        ) {
+            let mut space = RowSpace::new(6, 3);
+            space.push_block(&rows);
+            let mut once = v.clone();
+            space.project_out(&mut once);
+            let mut twice = once.clone();
+            space.project_out(&mut twice);
+            for (a, b) in once.iter().zip(&twice) {
+                prop_assert!((a - b).abs() <= 1e-15);
+            }
+        }
+    }
+
+    #[test]
+    fn dependent_rows_add_nothing_whatever_their_length() {
+        let mut space = RowSpace::new(3, 3);
+        assert!(space.push(&[1.0, 2.0, 3.0]));
+        assert!(!space.push(&[1e-6, 2e-6, 3e-6]));
+        assert!(!space.push(&[-3e9, -6e9, -9e9]));
+        assert!(!space.push(&[0.0, 0.0, 0.0]));
+        assert_eq!(space.rank(), 1);
+        assert!(
+            space.push(&[1e-8, 0.0, 0.0]),
+            "short rows count by their direction"
+        );
+    }
+
+    #[test]
+    fn a_block_of_dependent_rows_has_the_rank_of_its_span() {
+        // Three rows of a plane, as a distance on top of a position makes them.
+        let mut space = RowSpace::new(4, 3);
+        space.push_block(&[1.0, 0.0, 1e-3, 0.0, 0.0, 1.0, 0.0, 0.0, 1.0, 1.0, 1e-3, 0.0]);
+        assert_eq!(space.rank(), 2);
+    }
+
+    #[test]
+    fn nearly_parallel_rows_still_give_an_orthonormal_basis() {
+        let mut space = RowSpace::new(3, 1);
+        space.push(&[1.0, 1.0, 1.0]);
+        space.push(&[1.0, 1.0, 1.0 + 1e-7]);
+        assert_eq!(space.rank(), 2);
+        let (a, b) = space.basis[..6].split_at(3);
+        assert!(dot(a, b).abs() < 1e-15 && (norm(b) - 1.0).abs() < 1e-15);
+    }
+
+    #[test]
+    fn a_full_basis_leaves_no_direction_free() {
+        let mut space = RowSpace::new(2, 3);
+        space.push_block(&[1.0, 2.0, 3.0, 4.0, 5.0, 6.0]);
+        assert_eq!(space.rank(), 2);
+        let mut v = [0.3, -0.7];
+        space.project_out(&mut v);
+        assert!(norm(&v) < 1e-15);
+    }
+}

@@ -1,0 +1,164 @@
+//! The choice of the mode: the first, fewest active sets first, that keeps every other set.
+//!
+//! The rule of Section IV of the paper: go through the modes from least to most restrictive, and
+//! take the first in which every *inactive* set-based task passes the tangent-cone test
+//! `in_T_C(J f, σ)`, f being the velocity of that mode. Active high-priority sets are frozen, so they
+//! pass by construction; active low-priority ones are pushed to their border and are not tested.
+//!
+//! 2ⁿ modes are never looked at, and the answer is the same:
+//!
+//! * Only a set at or outside its border can fail the test, so only those are tested; while none is
+//!   there, the first mode is the answer.
+//! * A mode whose frozen rows depend on each other has the velocity of an earlier one, of which a
+//!   basis of those rows is frozen: f depends on their span alone, and a released row of the span
+//!   has J f = 0, which is in every cone. If the later mode were accepted, so would have been the
+//!   earlier. So every subset with a dependent row is passed over together with its supersets, and
+//!   no mode freezes more rows than there are joints.
+
+use alloc::vec::Vec;
+
+use crate::active::ActiveSet;
+use crate::evaluation::Evaluation;
+use crate::hierarchy::Hierarchy;
+use crate::linalg::dot;
+use crate::settings::ModeRule;
+use crate::stack::{Stack, TaskId};
+
+/// A task that changes slower than this [unit/s] counts as one that stands still: a frozen task
+/// moves at the level of rounding, and the test must not see it leave.
+const STILL: f64 = 1e-12;
+
+#[derive(Debug)]
+pub(crate) struct ModeSearch {
+    hierarchy: Hierarchy,
+    sets: Vec<TaskId>,
+    /// Sets that the rule allows to be active this tick, in list order.
+    candidates: Vec<TaskId>,
+    /// Sets at or outside their border this tick.
+    at_border: Vec<TaskId>,
+    evaluated: usize,
+}
+
+/// What one tick's search works on.
+struct Tick<'a> {
+    stack: &'a Stack,
+    evaluation: &'a mut Evaluation,
+    velocity: &'a mut [f64],
+}
+
+impl ModeSearch {
+    pub(crate) fn new(stack: &Stack) -> Self {
+        let sets: Vec<TaskId> = stack
+            .iter()
+            .filter(|(_, level)| level.interval().is_some())
+            .map(|(id, _)| id)
+            .collect();
+        Self {
+            hierarchy: Hierarchy::new(stack),
+            candidates: Vec::with_capacity(sets.len()),
+            at_border: Vec::with_capacity(sets.len()),
+            sets,
+            evaluated: 0,
+        }
+    }
+
+    /// How many modes the last search computed a velocity of.
+    pub(crate) fn evaluated(&self) -> usize {
+        self.evaluated
+    }
+
+    /// The mode of this tick, its velocity in `velocity`; `None` if exclusions leave no mode that
+    /// keeps every set.
+    pub(crate) fn choose(
+        &mut self,
+        rule: ModeRule,
+        stack: &Stack,
+        evaluation: &mut Evaluation,
+        velocity: &mut [f64],
+    ) -> Option<ActiveSet> {
+        self.begin_tick(rule, stack, evaluation);
+        let (high, low) = self.candidates.iter().fold((0, 0), |(high, low), &task| {
+            match stack.is_high_priority(task) {
+                true => (high + 1, low),
+                false => (high, low + 1),
+            }
+        });
+        let mut tick = Tick {
+            stack,
+            evaluation,
+            velocity,
+        };
+        (0..=high.min(stack.dof()) + low)
+            .find_map(|size| self.first_of_size(&mut tick, size, 0, ActiveSet::EMPTY))
+    }
+
+    fn begin_tick(&mut self, rule: ModeRule, stack: &Stack, evaluation: &Evaluation) {
+        self.evaluated = 0;
+        self.hierarchy.begin_tick();
+        self.candidates.clear();
+        self.at_border.clear();
+        for &task in &self.sets {
+            let at_border = stack[task]
+                .interval()
+                .is_some_and(|set| set.is_at_border(evaluation.scalar(task)));
+            if at_border {
+                self.at_border.push(task);
+            }
+            if at_border || rule == ModeRule::Paper {
+                self.candidates.push(task);
+            }
+        }
+    }
+
+    /// The first acceptable mode that adds `missing` more sets to `active`, in list order from the
+    /// candidate number `from` on.
+    fn first_of_size(
+        &mut self,
+        tick: &mut Tick<'_>,
+        missing: usize,
+        from: usize,
+        active: ActiveSet,
+    ) -> Option<ActiveSet> {
+        if missing == 0 {
+            return self.is_accepted(tick, &active).then_some(active);
+        }
+        for i in from..(self.candidates.len() + 1).saturating_sub(missing) {
+            let task = self.candidates[i];
+            if tick.stack[task].excluded().intersects(&active) {
+                continue;
+            }
+            let frozen = self.hierarchy.frozen();
+            if tick.stack.is_high_priority(task)
+                && !self.hierarchy.freeze(tick.stack, tick.evaluation, task)
+            {
+                continue;
+            }
+            let mut larger = active;
+            larger.insert(task);
+            let found = self.first_of_size(tick, missing - 1, i + 1, larger);
+            self.hierarchy.release_to(frozen);
+            if found.is_some() {
+                return found;
+            }
+        }
+        None
+    }
+
+    /// Whether, at the velocity of this mode, no inactive set is left or driven further out.
+    fn is_accepted(&mut self, tick: &mut Tick<'_>, active: &ActiveSet) -> bool {
+        self.evaluated += 1;
+        self.hierarchy
+            .velocity(tick.stack, tick.evaluation, active, tick.velocity);
+        self.at_border
+            .iter()
+            .filter(|&&task| !active.contains(task))
+            .all(|&task| {
+                let rate = dot(tick.evaluation.jacobian(tick.stack, task), tick.velocity);
+                let rate = if rate.abs() <= STILL { 0.0 } else { rate };
+                let sigma = tick.evaluation.scalar(task);
+                tick.stack[task]
+                    .interval()
+                    .is_none_or(|set| set.tangent_cone_contains(rate, sigma))
+            })
+    }
+}

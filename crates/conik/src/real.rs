@@ -1,0 +1,30 @@
+//! The few real functions that `core` lacks, from the standard library or from `libm`.
+
+#[cfg(not(any(feature = "std", feature = "libm")))]
+compile_error!("conik needs a source of sine and square root: enable the feature `std` or `libm`");
+
+#[cfg(feature = "std")]
+mod source {
+    #[inline]
+    pub fn sqrt(x: f64) -> f64 {
+        x.sqrt()
+    }
+
+    #[inline]
+    pub fn sin_cos(x: f64) -> (f64, f64) {
+        x.sin_cos()
+    }
+}
+
+#[cfg(not(feature = "std"))]
+mod source {
+    pub fn sqrt(x: f64) -> f64 {
+        libm::sqrt(x)
+    }
+
+    pub fn sin_cos(x: f64) -> (f64, f64) {
+        libm::sincos(x)
+    }
+}
+
+pub(crate) use source::{sin_cos, sqrt};

@@ -1,0 +1,100 @@
+//! Denavit-Hartenberg parameters, standard convention.
+
+use alloc::format;
+use alloc::vec::Vec;
+
+use super::{Joint, JointKind, JointLimits, Robot, RobotError};
+use crate::geometry::{Pose, Vec3};
+use crate::real::sin_cos;
+
+/// One row of a Denavit-Hartenberg table in the standard (distal) convention:
+/// turn by θ about z, move by d along z, move by a along the new x, turn by α about the new x.
+///
+/// A revolute joint adds its position to θ, a prismatic one to d.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct DhRow {
+    /// Link length a [m].
+    pub a_m: f64,
+    /// Link twist α [rad].
+    pub alpha_rad: f64,
+    /// Link offset d [m].
+    pub d_m: f64,
+    /// Joint angle θ at position 0 [rad].
+    pub theta_rad: f64,
+}
+
+impl DhRow {
+    /// A row of a revolute joint whose angle at position 0 is 0, as in Table I of the paper.
+    pub const fn new(a_m: f64, alpha_rad: f64, d_m: f64) -> Self {
+        Self {
+            a_m,
+            alpha_rad,
+            d_m,
+            theta_rad: 0.0,
+        }
+    }
+}
+
+/// A row made ready for forward kinematics: the constant part of it computed once.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Link {
+    a: f64,
+    cos_alpha: f64,
+    sin_alpha: f64,
+    d: f64,
+    theta: f64,
+    kind: JointKind,
+}
+
+impl Link {
+    pub(crate) fn new(joint: &Joint) -> Self {
+        let (sin_alpha, cos_alpha) = sin_cos(joint.dh.alpha_rad);
+        Self {
+            a: joint.dh.a_m,
+            cos_alpha,
+            sin_alpha,
+            d: joint.dh.d_m,
+            theta: joint.dh.theta_rad,
+            kind: joint.kind,
+        }
+    }
+
+    pub(crate) fn kind(&self) -> JointKind {
+        self.kind
+    }
+
+    /// `base_from_link` given `base_from_previous` and the joint's position.
+    #[inline]
+    pub(crate) fn advance(&self, previous: &Pose, position: f64) -> Pose {
+        let (theta, d) = match self.kind {
+            JointKind::Revolute => (self.theta + position, self.d),
+            JointKind::Prismatic => (self.theta, self.d + position),
+        };
+        let (sin, cos) = sin_cos(theta);
+        let x_axis = previous.x_axis * cos + previous.y_axis * sin;
+        let across: Vec3 = previous.y_axis * cos - previous.x_axis * sin;
+        Pose {
+            x_axis,
+            y_axis: across * self.cos_alpha + previous.z_axis * self.sin_alpha,
+            z_axis: previous.z_axis * self.cos_alpha - across * self.sin_alpha,
+            origin: previous.origin + previous.z_axis * d + x_axis * self.a,
+        }
+    }
+}
+
+impl Robot {
+    /// An arm of revolute joints named `joint_1`, `joint_2`, ... from its table, without limits.
+    pub fn from_dh(name: &str, rows: &[DhRow]) -> Result<Self, RobotError> {
+        let joints: Vec<Joint> = rows
+            .iter()
+            .enumerate()
+            .map(|(i, &dh)| Joint {
+                name: format!("joint_{}", i + 1),
+                kind: JointKind::Revolute,
+                dh,
+                limits: JointLimits::default(),
+            })
+            .collect();
+        Self::from_joints(name, joints)
+    }
+}

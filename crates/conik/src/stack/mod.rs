@@ -1,0 +1,286 @@
+//! The hierarchy: tasks in decreasing priority, and what is asked of each.
+
+mod checks;
+mod setpoints;
+
+use alloc::boxed::Box;
+use alloc::string::{String, ToString};
+use alloc::vec::Vec;
+
+use crate::active::{ActiveSet, MAX_TASKS};
+use crate::cone::Interval;
+use crate::robot::Robot;
+use crate::task::Task;
+pub use checks::{StackError, StackErrorReason};
+use checks::{check_desired, check_dimension, check_gain, check_set, error};
+pub use setpoints::Setpoints;
+
+/// A task's place in its stack: 0 is the highest priority.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct TaskId(usize);
+
+impl TaskId {
+    pub(crate) const fn new(index: usize) -> Self {
+        Self(index)
+    }
+
+    /// The place as a number, counted from 0.
+    pub const fn index(self) -> usize {
+        self.0
+    }
+}
+
+/// What is asked of a task.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Goal {
+    /// Have one value: σ̇_ref = σ̇_des + Λ (σ_des − σ).
+    Equality {
+        /// σ_des [task's unit].
+        desired: Vec<f64>,
+        /// σ̇_des [task's unit per second], the feed-forward of a desired value that moves.
+        desired_rate: Vec<f64>,
+        /// Λ [1/s].
+        gain: f64,
+    },
+    /// Stay in an interval, and cost nothing while there.
+    Set {
+        /// The allowed values [task's unit].
+        interval: Interval,
+        /// Λ [1/s] with which a low-priority set is driven back to its border.
+        gain: Option<f64>,
+    },
+}
+
+/// One task of a stack.
+#[derive(Debug)]
+pub struct Level {
+    name: String,
+    task: Box<dyn Task>,
+    goal: Goal,
+    /// Tasks that may not be active together with this one.
+    excluded: ActiveSet,
+}
+
+impl Level {
+    /// The task's name, unique in its stack.
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// What is measured.
+    pub fn task(&self) -> &dyn Task {
+        &*self.task
+    }
+
+    /// What is asked of it.
+    pub fn goal(&self) -> &Goal {
+        &self.goal
+    }
+
+    /// The allowed values, for a set-based task.
+    #[inline]
+    pub fn interval(&self) -> Option<&Interval> {
+        match &self.goal {
+            Goal::Set { interval, .. } => Some(interval),
+            Goal::Equality { .. } => None,
+        }
+    }
+
+    /// Tasks that may not be active together with this one.
+    pub(crate) fn excluded(&self) -> &ActiveSet {
+        &self.excluded
+    }
+}
+
+/// Tasks in decreasing priority for one robot.
+///
+/// A set-based task above the first equality task has *high priority*: it is frozen where it would
+/// leave its set, and only there is it guaranteed. Below, it has *low priority*: it is driven back
+/// to its border as well as the tasks above allow.
+///
+/// Tasks are added at construction; desired values, bounds and the tasks' own parameters may change
+/// between any two ticks.
+#[derive(Debug)]
+pub struct Stack {
+    dof: usize,
+    levels: Vec<Level>,
+}
+
+impl Stack {
+    /// An empty stack for a robot.
+    pub fn new(robot: &Robot) -> Self {
+        Self {
+            dof: robot.dof(),
+            levels: Vec::new(),
+        }
+    }
+
+    /// Adds an equality task below all others: σ → `desired` with gain Λ = `gain` [1/s].
+    pub fn equality(
+        &mut self,
+        name: &str,
+        task: impl Task,
+        desired: &[f64],
+        gain: f64,
+    ) -> Result<TaskId, StackError> {
+        let dimension = task.dimension();
+        let goal = check_desired(dimension, desired)
+            .and_then(|()| check_gain(gain))
+            .map(|()| Goal::Equality {
+                desired: desired.to_vec(),
+                desired_rate: alloc::vec![0.0; dimension],
+                gain,
+            });
+        self.push(name, Box::new(task), goal)
+    }
+
+    /// Adds a high-priority set-based task below all others: `stack.set("a", task, 0.18..)`.
+    ///
+    /// Below an equality task use [`set_with_gain`](Self::set_with_gain).
+    pub fn set(
+        &mut self,
+        name: &str,
+        task: impl Task,
+        interval: impl Into<Interval>,
+    ) -> Result<TaskId, StackError> {
+        self.add_set(name, Box::new(task), interval.into(), None)
+    }
+
+    /// Adds a set-based task below all others that, where it has low priority, is driven back to
+    /// its border with Λ = `gain` [1/s].
+    pub fn set_with_gain(
+        &mut self,
+        name: &str,
+        task: impl Task,
+        interval: impl Into<Interval>,
+        gain: f64,
+    ) -> Result<TaskId, StackError> {
+        self.add_set(name, Box::new(task), interval.into(), Some(gain))
+    }
+
+    fn add_set(
+        &mut self,
+        name: &str,
+        task: Box<dyn Task>,
+        interval: Interval,
+        gain: Option<f64>,
+    ) -> Result<TaskId, StackError> {
+        let low_priority = self.first_equality() < self.levels.len();
+        let goal = check_set(task.dimension(), interval)
+            .and_then(|()| match gain {
+                Some(gain) => check_gain(gain),
+                None if low_priority => Err(StackErrorReason::MissingGain),
+                None => Ok(()),
+            })
+            .map(|()| Goal::Set { interval, gain });
+        self.push(name, task, goal)
+    }
+
+    fn push(
+        &mut self,
+        name: &str,
+        task: Box<dyn Task>,
+        goal: Result<Goal, StackErrorReason>,
+    ) -> Result<TaskId, StackError> {
+        let goal = check_dimension(task.dimension())
+            .and_then(|()| task.check(self.dof).map_err(StackErrorReason::Unfit))
+            .and(goal)
+            .and_then(|goal| {
+                if self.find(name).is_some() {
+                    Err(StackErrorReason::NameTaken)
+                } else if self.levels.len() == MAX_TASKS {
+                    Err(StackErrorReason::TooManyTasks)
+                } else {
+                    Ok(goal)
+                }
+            })
+            .map_err(|reason| error(name, reason))?;
+        self.levels.push(Level {
+            name: name.to_string(),
+            task,
+            goal,
+            excluded: ActiveSet::EMPTY,
+        });
+        Ok(TaskId(self.levels.len() - 1))
+    }
+
+    /// Declares that no two of these set-based tasks can be active together (the paper strikes the
+    /// modes out in which both of two disjoint obstacles are frozen).
+    pub fn exclude_together(&mut self, tasks: &[TaskId]) -> Result<(), StackError> {
+        if let Some(&task) = tasks
+            .iter()
+            .find(|task| self.levels[task.0].interval().is_none())
+        {
+            return Err(error(
+                &self.levels[task.0].name,
+                StackErrorReason::WrongKind,
+            ));
+        }
+        let group: ActiveSet = tasks.iter().copied().collect();
+        for &task in tasks {
+            for other in group.iter().filter(|&other| other != task) {
+                self.levels[task.0].excluded.insert(other);
+            }
+        }
+        Ok(())
+    }
+
+    /// What may change between any two ticks.
+    pub fn setpoints(&mut self) -> Setpoints<'_> {
+        Setpoints { stack: self }
+    }
+
+    /// The task of this name.
+    pub fn find(&self, name: &str) -> Option<TaskId> {
+        self.levels
+            .iter()
+            .position(|level| level.name == name)
+            .map(TaskId)
+    }
+
+    /// The tasks with their places, the highest priority first.
+    pub fn iter(&self) -> impl ExactSizeIterator<Item = (TaskId, &Level)> {
+        self.levels
+            .iter()
+            .enumerate()
+            .map(|(i, level)| (TaskId(i), level))
+    }
+
+    /// Number of tasks.
+    pub fn len(&self) -> usize {
+        self.levels.len()
+    }
+
+    /// Whether there is no task.
+    pub fn is_empty(&self) -> bool {
+        self.levels.is_empty()
+    }
+
+    /// Number of joints of the robot that the stack is for.
+    pub fn dof(&self) -> usize {
+        self.dof
+    }
+
+    /// Whether a task stands above the first equality task.
+    #[inline]
+    pub fn is_high_priority(&self, task: TaskId) -> bool {
+        task.0 < self.first_equality()
+    }
+
+    /// Index of the first equality task; the number of tasks if there is none.
+    fn first_equality(&self) -> usize {
+        self.levels
+            .iter()
+            .position(|level| level.interval().is_none())
+            .unwrap_or(self.levels.len())
+    }
+}
+
+impl core::ops::Index<TaskId> for Stack {
+    type Output = Level;
+
+    #[inline]
+    fn index(&self, task: TaskId) -> &Level {
+        &self.levels[task.0]
+    }
+}

@@ -1,0 +1,93 @@
+//! What may change between two ticks: desired values, allowed values, the tasks' own parameters.
+
+use core::any::Any;
+
+use super::checks::{check_desired, check_set, error};
+use super::{Goal, Stack, StackError, StackErrorReason, TaskId};
+use crate::cone::Interval;
+use crate::task::Task;
+
+/// The part of a [`Stack`] that may change between any two ticks.
+#[derive(Debug)]
+pub struct Setpoints<'a> {
+    pub(super) stack: &'a mut Stack,
+}
+
+impl Setpoints<'_> {
+    /// Sets the desired value of an equality task, at rest.
+    pub fn set_desired(&mut self, task: TaskId, desired: &[f64]) -> Result<(), StackError> {
+        self.change(task, |level_goal, dimension| {
+            check_desired(dimension, desired)?;
+            level_goal.set_desired(desired, None)
+        })
+    }
+
+    /// Sets the desired value of an equality task and the rate [unit/s] at which it moves.
+    pub fn set_desired_moving(
+        &mut self,
+        task: TaskId,
+        desired: &[f64],
+        rate: &[f64],
+    ) -> Result<(), StackError> {
+        self.change(task, |level_goal, dimension| {
+            check_desired(dimension, desired)?;
+            check_desired(dimension, rate)?;
+            level_goal.set_desired(desired, Some(rate))
+        })
+    }
+
+    /// Sets the allowed values of a set-based task.
+    pub fn set_interval(
+        &mut self,
+        task: TaskId,
+        new_interval: impl Into<Interval>,
+    ) -> Result<(), StackError> {
+        let new_interval = new_interval.into();
+        self.change(task, |level_goal, dimension| {
+            check_set(dimension, new_interval)?;
+            match level_goal {
+                Goal::Set { interval, .. } => {
+                    *interval = new_interval;
+                    Ok(())
+                }
+                Goal::Equality { .. } => Err(StackErrorReason::WrongKind),
+            }
+        })
+    }
+
+    /// A task as its own type, to change its parameters; `None` if it is of another type.
+    pub fn task_mut<T: Task>(&mut self, task: TaskId) -> Option<&mut T> {
+        let task: &mut dyn Any = &mut *self.stack.levels[task.0].task;
+        task.downcast_mut()
+    }
+
+    fn change(
+        &mut self,
+        task: TaskId,
+        change: impl FnOnce(&mut Goal, usize) -> Result<(), StackErrorReason>,
+    ) -> Result<(), StackError> {
+        let level = &mut self.stack.levels[task.0];
+        let dimension = level.task.dimension();
+        change(&mut level.goal, dimension).map_err(|reason| error(&level.name, reason))
+    }
+}
+
+impl Goal {
+    /// Lengths are checked already. No rate is a rate of zero.
+    fn set_desired(&mut self, value: &[f64], rate: Option<&[f64]>) -> Result<(), StackErrorReason> {
+        let Self::Equality {
+            desired,
+            desired_rate,
+            ..
+        } = self
+        else {
+            return Err(StackErrorReason::WrongKind);
+        };
+        desired.copy_from_slice(value);
+        match rate {
+            Some(rate) => desired_rate.copy_from_slice(rate),
+            None => desired_rate.fill(0.0),
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,70 @@
+//! What one tick of the controller decided, and why.
+
+use crate::active::ActiveSet;
+use crate::joints::JointVec;
+use crate::real::sqrt;
+use crate::stack::{Stack, TaskId};
+use crate::task_vectors::TaskVectors;
+
+/// One tick: the mode chosen at q, and the reference that follows from it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Step {
+    /// The active set-based tasks.
+    pub active: ActiveSet,
+    /// Joint velocity q̇_ref [rad/s or m/s], within the speed limits.
+    pub qd: JointVec,
+    /// Joint acceleration q̈_ref [rad/s² or m/s²]: the change of q̇_ref since the last tick.
+    pub qdd: JointVec,
+    /// Joint positions q_ref = q + T q̇_ref [rad or m], for the end of this period.
+    pub q_ref: JointVec,
+    /// By how much the whole velocity was scaled to meet the speed limits, and for which joint;
+    /// `None` if it was not.
+    pub speed_limit: Option<SpeedLimit>,
+    /// Whether the exclusions left no mode that keeps every set. The arm then stands still.
+    pub no_mode: bool,
+    /// Number of modes whose velocity was computed.
+    pub modes_evaluated: usize,
+    pub(crate) values: TaskVectors,
+    pub(crate) errors: TaskVectors,
+}
+
+/// The joint whose speed limit bound.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SpeedLimit {
+    /// Index of the joint.
+    pub joint: usize,
+    /// Factor on the whole velocity, in (0, 1).
+    pub factor: f64,
+}
+
+impl Step {
+    pub(crate) fn at_rest(stack: &Stack) -> Self {
+        let still = JointVec::zeros(stack.dof());
+        Self {
+            active: ActiveSet::EMPTY,
+            qd: still,
+            qdd: still,
+            q_ref: still,
+            speed_limit: None,
+            no_mode: false,
+            modes_evaluated: 0,
+            values: TaskVectors::zeros(stack),
+            errors: TaskVectors::zeros(stack),
+        }
+    }
+
+    /// σ of a task at q [task's unit], one entry per component.
+    pub fn value(&self, task: TaskId) -> &[f64] {
+        self.values.of(task)
+    }
+
+    /// σ̃ of an equality task at q [task's unit], one entry per component; zeros for a set.
+    pub fn error(&self, task: TaskId) -> &[f64] {
+        self.errors.of(task)
+    }
+
+    /// Euclidean norm of the error of an equality task at q [task's unit].
+    pub fn error_norm(&self, task: TaskId) -> f64 {
+        sqrt(self.error(task).iter().map(|e| e * e).sum())
+    }
+}

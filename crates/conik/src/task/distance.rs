@@ -1,0 +1,75 @@
+//! Distance to a point: σ = √((p_o − p)ᵀ(p_o − p)), Eqs. (9) and (10): collision avoidance.
+
+use super::{DENOMINATOR_EPSILON, JacobianMut, Task, check_frame};
+use crate::geometry::Vec3;
+use crate::kinematics::{Frame, Kinematics};
+
+/// Distance of the origin of a frame to a point of the base frame [m].
+///
+/// At the point itself the direction is undefined and the Jacobian is zero.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Distance {
+    frame: Frame,
+    point: Vec3,
+}
+
+impl Distance {
+    /// Distance of the tool to `point` [m].
+    pub fn of_tool_to(point: impl Into<Vec3>) -> Self {
+        Self::between(Frame::Tool, point)
+    }
+
+    /// Distance of any frame's origin to `point` [m].
+    pub fn between(frame: Frame, point: impl Into<Vec3>) -> Self {
+        Self {
+            frame,
+            point: point.into(),
+        }
+    }
+
+    /// The point in the base frame [m].
+    pub fn point(&self) -> Vec3 {
+        self.point
+    }
+
+    /// Moves the point [m].
+    pub fn set_point(&mut self, point: impl Into<Vec3>) {
+        self.point = point.into();
+    }
+
+    #[inline]
+    fn from_point(&self, kinematics: &Kinematics) -> Vec3 {
+        kinematics.base_from(self.frame).origin - self.point
+    }
+}
+
+impl Task for Distance {
+    fn dimension(&self) -> usize {
+        1
+    }
+
+    #[inline]
+    fn value(&self, kinematics: &Kinematics, value: &mut [f64]) {
+        value[0] = self.from_point(kinematics).norm();
+    }
+
+    #[inline]
+    fn jacobian(&self, kinematics: &Kinematics, jacobian: &mut JacobianMut<'_>) {
+        let away = self.from_point(kinematics);
+        let direction = away * (1.0 / (away.norm() + DENOMINATOR_EPSILON));
+        kinematics.point_row(self.frame, direction, jacobian.row(0));
+    }
+
+    fn unit(&self) -> &'static str {
+        "m"
+    }
+
+    fn check(&self, dof: usize) -> Result<(), &'static str> {
+        check_frame(self.frame, dof)?;
+        if self.point.to_array().iter().all(|v| v.is_finite()) {
+            Ok(())
+        } else {
+            Err("the point must be finite")
+        }
+    }
+}

@@ -1,0 +1,74 @@
+//! Field of view: σ = √((a_des − a)ᵀ(a_des − a)), a the z axis of a frame, Eqs. (13) to (17).
+
+use super::{DENOMINATOR_EPSILON, JacobianMut, Task, check_frame};
+use crate::geometry::Vec3;
+use crate::kinematics::{Frame, Kinematics};
+
+/// Norm of the difference between a desired direction and the z axis of a frame [-]:
+/// 2 sin(angle / 2), from 0 (aligned) to 2 (opposite).
+///
+/// Exactly aligned, the Jacobian is zero.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FieldOfView {
+    frame: Frame,
+    direction: Vec3,
+}
+
+impl FieldOfView {
+    /// The tool's z axis against `direction`, any non-zero vector of the base frame; its length
+    /// does not matter.
+    pub fn of_tool_along(direction: impl Into<Vec3>) -> Self {
+        Self::between(Frame::Tool, direction)
+    }
+
+    /// The z axis of any frame against `direction`.
+    pub fn between(frame: Frame, direction: impl Into<Vec3>) -> Self {
+        let direction = direction.into();
+        Self {
+            frame,
+            direction: direction * (1.0 / direction.norm()),
+        }
+    }
+
+    /// The desired direction in the base frame, of length 1.
+    pub fn direction(&self) -> Vec3 {
+        self.direction
+    }
+
+    #[inline]
+    fn from_desired(&self, kinematics: &Kinematics) -> Vec3 {
+        kinematics.base_from(self.frame).z_axis - self.direction
+    }
+}
+
+impl Task for FieldOfView {
+    fn dimension(&self) -> usize {
+        1
+    }
+
+    #[inline]
+    fn value(&self, kinematics: &Kinematics, value: &mut [f64]) {
+        value[0] = self.from_desired(kinematics).norm();
+    }
+
+    #[inline]
+    fn jacobian(&self, kinematics: &Kinematics, jacobian: &mut JacobianMut<'_>) {
+        let away = self.from_desired(kinematics);
+        let direction = away * (1.0 / (away.norm() + DENOMINATOR_EPSILON));
+        kinematics.axis_row(self.frame, direction, jacobian.row(0));
+    }
+
+    fn unit(&self) -> &'static str {
+        "-"
+    }
+
+    fn check(&self, dof: usize) -> Result<(), &'static str> {
+        check_frame(self.frame, dof)?;
+        // False for NaN too, which is what a zero or infinite vector normalises to.
+        if (self.direction.norm() - 1.0).abs() < 1e-9 {
+            Ok(())
+        } else {
+            Err("the direction must be finite and not zero")
+        }
+    }
+}

@@ -1,0 +1,47 @@
+//! Position of one joint: σ = q_i.
+
+use super::{JacobianMut, Task};
+use crate::kinematics::Kinematics;
+
+/// Position of one joint [rad, or m for a prismatic joint].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct JointPosition {
+    index: usize,
+}
+
+impl JointPosition {
+    /// Position of joint `index`, counted from 0 at the base.
+    pub const fn of(index: usize) -> Self {
+        Self { index }
+    }
+}
+
+impl Task for JointPosition {
+    fn dimension(&self) -> usize {
+        1
+    }
+
+    #[inline]
+    fn value(&self, kinematics: &Kinematics, value: &mut [f64]) {
+        value[0] = kinematics.q()[self.index];
+    }
+
+    #[inline]
+    fn jacobian(&self, _kinematics: &Kinematics, jacobian: &mut JacobianMut<'_>) {
+        let row = jacobian.row(0);
+        row.fill(0.0);
+        row[self.index] = 1.0;
+    }
+
+    fn unit(&self) -> &'static str {
+        "rad"
+    }
+
+    fn check(&self, dof: usize) -> Result<(), &'static str> {
+        if self.index < dof {
+            Ok(())
+        } else {
+            Err("the robot has no such joint")
+        }
+    }
+}

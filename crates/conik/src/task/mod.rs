@@ -1,0 +1,84 @@
+//! Tasks: what a controller measures. What it asks of them is in [`Stack`](crate::Stack).
+//!
+//! A task is a function σ(q) ∈ ℝᵐ of the configuration with an exact Jacobian J = ∂σ/∂q. One file
+//! per task; each starts with its equation.
+
+mod coordinate;
+mod distance;
+mod field_of_view;
+mod joint;
+mod position;
+
+use core::any::Any;
+use core::fmt::Debug;
+
+pub use coordinate::{Axis, Coordinate};
+pub use distance::Distance;
+pub use field_of_view::FieldOfView;
+pub use joint::JointPosition;
+pub use position::Position;
+
+use crate::kinematics::{Frame, Kinematics};
+
+/// Added to the denominators of Eqs. (10) and (17), whose Jacobians are undefined at σ = 0.
+pub(crate) const DENOMINATOR_EPSILON: f64 = 1e-9;
+
+/// A task: its value and its Jacobian in a configuration.
+///
+/// Implementations must not allocate, and must give finite numbers for every finite configuration.
+pub trait Task: Any + Debug + Send {
+    /// Number of components m. Set-based tasks have one.
+    fn dimension(&self) -> usize;
+
+    /// Writes σ(q), `dimension` numbers, into `value`.
+    fn value(&self, kinematics: &Kinematics, value: &mut [f64]);
+
+    /// Writes J(q) = ∂σ/∂q, `dimension` rows of one entry per joint.
+    fn jacobian(&self, kinematics: &Kinematics, jacobian: &mut JacobianMut<'_>);
+
+    /// Writes the error σ̃ between a desired value and the present one; their difference unless
+    /// the task's values are not a vector space.
+    fn error(&self, desired: &[f64], value: &[f64], error: &mut [f64]) {
+        for ((error, desired), value) in error.iter_mut().zip(desired).zip(value) {
+            *error = desired - value;
+        }
+    }
+
+    /// Unit of the value, for people: `m`, `rad`, `-`.
+    fn unit(&self) -> &'static str;
+
+    /// Whether the task makes sense on a robot of `dof` joints; if not, the reason.
+    fn check(&self, dof: usize) -> Result<(), &'static str>;
+}
+
+/// Where a task writes its Jacobian: m rows of one entry per joint.
+#[derive(Debug)]
+pub struct JacobianMut<'a> {
+    entries: &'a mut [f64],
+    dof: usize,
+}
+
+impl<'a> JacobianMut<'a> {
+    /// A Jacobian over `entries`, row after row, `dof` entries each.
+    #[inline]
+    pub fn new(entries: &'a mut [f64], dof: usize) -> Self {
+        Self { entries, dof }
+    }
+
+    /// Row `i`, one entry per joint.
+    ///
+    /// # Panics
+    /// If the task has no such component.
+    #[inline]
+    pub fn row(&mut self, i: usize) -> &mut [f64] {
+        &mut self.entries[i * self.dof..][..self.dof]
+    }
+}
+
+/// Reports a frame that a robot of `dof` joints does not have.
+fn check_frame(frame: Frame, dof: usize) -> Result<(), &'static str> {
+    match frame {
+        Frame::Link(joints) if joints > dof => Err("the robot has no such link"),
+        _ => Ok(()),
+    }
+}

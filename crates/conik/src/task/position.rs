@@ -1,0 +1,54 @@
+//! Position of a frame's origin: σ = p(q) ∈ ℝ³, Eqs. (4) and (5).
+
+use super::{JacobianMut, Task, check_frame};
+use crate::geometry::Vec3;
+use crate::kinematics::{Frame, Kinematics};
+
+/// Position of the origin of a frame in the base frame [m], dimension 3.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Position {
+    frame: Frame,
+}
+
+impl Position {
+    /// Position of the tool.
+    pub const fn of_tool() -> Self {
+        Self::of(Frame::Tool)
+    }
+
+    /// Position of any frame.
+    pub const fn of(frame: Frame) -> Self {
+        Self { frame }
+    }
+}
+
+impl Task for Position {
+    fn dimension(&self) -> usize {
+        3
+    }
+
+    #[inline]
+    fn value(&self, kinematics: &Kinematics, value: &mut [f64]) {
+        value.copy_from_slice(&kinematics.base_from(self.frame).origin.to_array());
+    }
+
+    #[inline]
+    fn jacobian(&self, kinematics: &Kinematics, jacobian: &mut JacobianMut<'_>) {
+        const AXES: [Vec3; 3] = [
+            Vec3::new(1.0, 0.0, 0.0),
+            Vec3::new(0.0, 1.0, 0.0),
+            Vec3::new(0.0, 0.0, 1.0),
+        ];
+        for (i, axis) in AXES.into_iter().enumerate() {
+            kinematics.point_row(self.frame, axis, jacobian.row(i));
+        }
+    }
+
+    fn unit(&self) -> &'static str {
+        "m"
+    }
+
+    fn check(&self, dof: usize) -> Result<(), &'static str> {
+        check_frame(self.frame, dof)
+    }
+}
