@@ -1,4 +1,17 @@
-//! Scenarios, the run loop and the log.
+//! Scenarios for conik: what a run is, the loop that runs it on any arm, and the log of it.
+//!
+//! ```text
+//! scenario.toml -> Scenario -> Experiment -> run(.., &mut dyn Arm, ..) -> Record, Record, ... -> log.csv
+//!                                                                                     \\-> Summary
+//! ```
+//!
+//! Nothing here knows which arm it drives or how a log is drawn.
+
 pub mod arm;
+pub mod experiment;
+pub mod log;
+pub mod record;
+pub mod run;
 pub mod scenario;
+pub mod summarise;
 pub mod summary;

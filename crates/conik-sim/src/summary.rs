@@ -30,7 +30,7 @@ pub struct Summary {
     pub waypoints_reached_s: Vec<Option<f64>>,
     /// The five properties of Section VI of the paper.
     pub properties: Properties,
-    /// Joint references after the last row [rad].
+    /// Joint references at the last row [rad].
     pub final_q_rad: Vec<f64>,
     /// Time of the controller's step alone [µs].
     pub step_time_us: StepTime,
@@ -40,6 +40,8 @@ pub struct Summary {
     pub tracking: Option<Tracking>,
     /// Ticks in which the speed limit of a joint scaled the velocity down.
     pub speed_limited_ticks: u64,
+    /// Ticks in which no mode kept every set, so that the arm stood still.
+    pub no_mode_ticks: u64,
 }
 
 /// The settings in force.

@@ -96,6 +96,11 @@ mod tests {
     use super::*;
 
     /// The listing of Section III, branch by branch.
+    #[allow(
+        clippy::if_same_then_else,
+        clippy::needless_bool,
+        reason = "as printed"
+    )]
     fn in_t_c(sigma_dot: f64, sigma: f64, min: f64, max: f64) -> bool {
         if sigma > min && sigma < max {
             true
@@ -103,8 +108,10 @@ mod tests {
             true
         } else if sigma <= min && sigma_dot < 0.0 {
             false
+        } else if sigma >= max && sigma_dot <= 0.0 {
+            true
         } else {
-            sigma_dot <= 0.0
+            false
         }
     }
 

@@ -50,6 +50,7 @@
 //! The crate needs no operating system: without the default feature `std` (and with `libm`) it is
 //! `no_std` and uses `alloc` at construction only.
 
+#![forbid(unsafe_code)]
 #![cfg_attr(not(feature = "std"), no_std)]
 
 extern crate alloc;

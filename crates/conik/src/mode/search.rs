@@ -77,12 +77,12 @@ impl ModeSearch {
         velocity: &mut [f64],
     ) -> Option<ActiveSet> {
         self.begin_tick(rule, stack, evaluation);
-        let (high, low) = self.candidates.iter().fold((0, 0), |(high, low), &task| {
-            match stack.is_high_priority(task) {
-                true => (high + 1, low),
-                false => (high, low + 1),
-            }
-        });
+        let high = self
+            .candidates
+            .iter()
+            .filter(|&&task| stack.is_high_priority(task))
+            .count();
+        let low = self.candidates.len() - high;
         let mut tick = Tick {
             stack,
             evaluation,

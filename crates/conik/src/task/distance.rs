@@ -38,7 +38,7 @@ impl Distance {
     }
 
     #[inline]
-    fn from_point(&self, kinematics: &Kinematics) -> Vec3 {
+    fn away_from_point(&self, kinematics: &Kinematics) -> Vec3 {
         kinematics.base_from(self.frame).origin - self.point
     }
 }
@@ -50,12 +50,12 @@ impl Task for Distance {
 
     #[inline]
     fn value(&self, kinematics: &Kinematics, value: &mut [f64]) {
-        value[0] = self.from_point(kinematics).norm();
+        value[0] = self.away_from_point(kinematics).norm();
     }
 
     #[inline]
     fn jacobian(&self, kinematics: &Kinematics, jacobian: &mut JacobianMut<'_>) {
-        let away = self.from_point(kinematics);
+        let away = self.away_from_point(kinematics);
         let direction = away * (1.0 / (away.norm() + DENOMINATOR_EPSILON));
         kinematics.point_row(self.frame, direction, jacobian.row(0));
     }

@@ -36,7 +36,7 @@ impl FieldOfView {
     }
 
     #[inline]
-    fn from_desired(&self, kinematics: &Kinematics) -> Vec3 {
+    fn away_from_desired(&self, kinematics: &Kinematics) -> Vec3 {
         kinematics.base_from(self.frame).z_axis - self.direction
     }
 }
@@ -48,12 +48,12 @@ impl Task for FieldOfView {
 
     #[inline]
     fn value(&self, kinematics: &Kinematics, value: &mut [f64]) {
-        value[0] = self.from_desired(kinematics).norm();
+        value[0] = self.away_from_desired(kinematics).norm();
     }
 
     #[inline]
     fn jacobian(&self, kinematics: &Kinematics, jacobian: &mut JacobianMut<'_>) {
-        let away = self.from_desired(kinematics);
+        let away = self.away_from_desired(kinematics);
         let direction = away * (1.0 / (away.norm() + DENOMINATOR_EPSILON));
         kinematics.axis_row(self.frame, direction, jacobian.row(0));
     }

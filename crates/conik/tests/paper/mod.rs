@@ -22,8 +22,6 @@ pub struct Example {
     pub position: TaskId,
     pub waypoints: Waypoints,
     pub q: JointVec,
-    /// Sets in the order a, b, c of the paper.
-    pub sets: Vec<TaskId>,
 }
 
 impl Example {
@@ -39,7 +37,6 @@ impl Example {
             waypoints: Waypoints::new(WAYPOINTS.map(Vec3::from).to_vec(), ACCEPTANCE)
                 .expect("two points"),
             q: JointVec::from(q0),
-            sets,
         }
     }
 

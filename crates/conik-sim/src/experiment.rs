@@ -1,0 +1,172 @@
+//! From a scenario to the objects that run it: robot, controller, waypoints.
+
+use conik::{
+    Controller, ControllerError, Coordinate, Distance, FieldOfView, Interval, JointPosition,
+    JointVec, ModeOrder, Position, Robot, RobotError, Settings, Stack, StackError, Task, TaskId,
+    TooManyJoints, Vec3, Waypoints,
+};
+
+use crate::scenario::{
+    Axis, Border, Control, GoalConfig, ModeRule, Recursion, Scenario, TaskConfig, TaskKind,
+};
+
+/// A scenario made ready to run.
+#[derive(Debug)]
+pub struct Experiment {
+    /// The robot.
+    pub robot: Robot,
+    /// The controller with the scenario's tasks.
+    pub controller: Controller,
+    /// Numbers of the modes.
+    pub mode_order: ModeOrder,
+    /// The position task that visits waypoints, and those.
+    pub waypoints: Option<(TaskId, Waypoints)>,
+    /// Joint positions at the start [rad].
+    pub q0: JointVec,
+    /// Index of the last tick: the run has one more tick than this.
+    pub last_tick: u64,
+}
+
+/// Why a scenario cannot be run. A scenario that was read from a file was checked for all of these.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum ExperimentError {
+    /// The robot is unknown or unusable.
+    #[error(transparent)]
+    Robot(#[from] RobotError),
+    /// The start has too many joints.
+    #[error(transparent)]
+    Start(#[from] TooManyJoints),
+    /// A task does not fit.
+    #[error(transparent)]
+    Stack(#[from] StackError),
+    /// The controller cannot be made.
+    #[error(transparent)]
+    Controller(#[from] ControllerError),
+    /// A name in `exclusive` is no task's.
+    #[error("`exclusive` names `{0}`, which is no task")]
+    UnknownTask(String),
+    /// Waypoints without points.
+    #[error("task `{0}` has no waypoints")]
+    NoWaypoints(String),
+}
+
+impl Experiment {
+    /// Makes a scenario ready to run.
+    pub fn new(scenario: &Scenario) -> Result<Self, ExperimentError> {
+        let robot = Robot::builtin(&scenario.robot.model)?;
+        let mut stack = Stack::new(&robot);
+        let mut waypoints = None;
+        for task in &scenario.tasks {
+            let id = add_task(&mut stack, task)?;
+            if let GoalConfig::Waypoints {
+                waypoints_m,
+                acceptance_m,
+                ..
+            } = &task.goal
+            {
+                let points = waypoints_m.iter().copied().map(Vec3::from).collect();
+                waypoints = Waypoints::new(points, *acceptance_m).map(|points| (id, points));
+            }
+        }
+        for group in &scenario.control.exclusive {
+            let ids = group
+                .iter()
+                .map(|name| {
+                    stack
+                        .find(name)
+                        .ok_or_else(|| ExperimentError::UnknownTask(name.clone()))
+                })
+                .collect::<Result<Vec<_>, _>>()?;
+            stack.exclude_together(&ids)?;
+        }
+        Ok(Self {
+            mode_order: ModeOrder::new(&stack),
+            controller: Controller::new(&robot, stack, settings(&scenario.control))?,
+            waypoints,
+            q0: JointVec::from_slice(&scenario.robot.q0_rad)?,
+            last_tick: scenario.control.last_tick(),
+            robot,
+        })
+    }
+}
+
+impl Control {
+    /// Index of the tick at the end of the run: tick k is at t = k / rate.
+    pub fn last_tick(&self) -> u64 {
+        // Checked by the reader: positive, and far below 2^53 ticks.
+        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
+        let last = (self.duration_s * self.rate_hz + 1e-9).floor() as u64;
+        last
+    }
+}
+
+fn settings(control: &Control) -> Settings {
+    Settings {
+        mode_rule: match control.mode_rule {
+            ModeRule::Paper => conik::ModeRule::Paper,
+            ModeRule::Border => conik::ModeRule::Border,
+        },
+        border: match control.border {
+            Border::Freeze => conik::Border::Freeze,
+        },
+        recursion: match control.recursion {
+            Recursion::Chiaverini => conik::Recursion::Chiaverini,
+        },
+        ..Settings::at_rate(control.rate_hz)
+    }
+}
+
+fn add_task(stack: &mut Stack, config: &TaskConfig) -> Result<TaskId, ExperimentError> {
+    match config.kind {
+        TaskKind::Position => add(stack, config, Position::of_tool()),
+        TaskKind::Coordinate { axis } => {
+            let axis = match axis {
+                Axis::X => conik::Axis::X,
+                Axis::Y => conik::Axis::Y,
+                Axis::Z => conik::Axis::Z,
+            };
+            add(stack, config, Coordinate::of_tool(axis))
+        }
+        TaskKind::Distance { point_m } => add(stack, config, Distance::of_tool_to(point_m)),
+        TaskKind::FieldOfView { direction } => {
+            add(stack, config, FieldOfView::of_tool_along(direction))
+        }
+        // Joints are counted from 1 in scenarios; 0 is refused by the stack as any other that the
+        // robot does not have.
+        TaskKind::Joint { joint } => add(stack, config, JointPosition::of(joint.wrapping_sub(1))),
+    }
+}
+
+fn add(stack: &mut Stack, config: &TaskConfig, task: impl Task) -> Result<TaskId, ExperimentError> {
+    let name = &config.name;
+    Ok(match &config.goal {
+        GoalConfig::Waypoints {
+            waypoints_m,
+            gain_per_s,
+            ..
+        } => {
+            let first = waypoints_m
+                .first()
+                .ok_or_else(|| ExperimentError::NoWaypoints(name.clone()))?;
+            stack.equality(name, task, first, *gain_per_s)?
+        }
+        GoalConfig::Desired {
+            desired,
+            gain_per_s,
+        } => stack.equality(name, task, desired, *gain_per_s)?,
+        GoalConfig::Set {
+            min,
+            max,
+            gain_per_s,
+        } => {
+            let set = Interval {
+                min: min.unwrap_or(f64::NEG_INFINITY),
+                max: max.unwrap_or(f64::INFINITY),
+            };
+            match gain_per_s {
+                Some(gain) => stack.set_with_gain(name, task, set, *gain)?,
+                None => stack.set(name, task, set)?,
+            }
+        }
+    })
+}

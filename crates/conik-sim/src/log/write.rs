@@ -1,0 +1,154 @@
+//! Writes `log.csv`.
+
+use std::fs::File;
+use std::io::{self, BufWriter, Write};
+use std::path::{Path, PathBuf};
+
+use conik::{ActiveSet, ModeOrder, Stack};
+
+use crate::record::Record;
+use crate::run::Columns;
+
+/// Rows after which what is buffered goes to the file, so that a killed run leaves its log.
+const ROWS_BETWEEN_FLUSHES: u64 = 128;
+
+/// Writes the rows of `log.csv` as they come.
+#[derive(Debug)]
+pub struct LogWriter {
+    path: PathBuf,
+    file: BufWriter<File>,
+    head: Head,
+    rows: u64,
+}
+
+/// What the rows need to know of the experiment.
+#[derive(Debug)]
+struct Head {
+    mode_order: ModeOrder,
+    task_names: Vec<String>,
+    columns: Vec<String>,
+    /// The active set of the last row, as it is printed: modes change seldom, their numbers are
+    /// not free.
+    last_mode: Option<(ActiveSet, String)>,
+}
+
+/// A log that could not be written.
+#[derive(Debug, thiserror::Error)]
+#[error("cannot write {}: {source}", path.display())]
+pub struct LogWriteError {
+    /// The file.
+    pub path: PathBuf,
+    /// What the system says.
+    pub source: io::Error,
+}
+
+impl LogWriter {
+    /// Begins a log at `path`; whatever was there is replaced.
+    pub fn create(path: &Path, stack: &Stack) -> Result<Self, LogWriteError> {
+        let file = File::create(path).map_err(|source| LogWriteError {
+            path: path.to_owned(),
+            source,
+        })?;
+        Ok(Self {
+            path: path.to_owned(),
+            file: BufWriter::with_capacity(1 << 16, file),
+            head: Head {
+                mode_order: ModeOrder::new(stack),
+                task_names: stack
+                    .iter()
+                    .map(|(_, level)| level.name().to_owned())
+                    .collect(),
+                columns: Columns::new(stack).names(stack),
+                last_mode: None,
+            },
+            rows: 0,
+        })
+    }
+
+    /// Adds one row.
+    pub fn write(&mut self, record: &Record) -> Result<(), LogWriteError> {
+        self.try_write(record).map_err(|source| self.error(source))
+    }
+
+    /// Brings everything to the file.
+    pub fn finish(mut self) -> Result<(), LogWriteError> {
+        self.file
+            .flush()
+            .and_then(|()| self.file.get_ref().sync_all())
+            .map_err(|source| self.error(source))
+    }
+
+    fn error(&self, source: io::Error) -> LogWriteError {
+        LogWriteError {
+            path: self.path.clone(),
+            source,
+        }
+    }
+
+    fn try_write(&mut self, record: &Record) -> io::Result<()> {
+        if self.rows == 0 {
+            self.head.write_header(&mut self.file, record)?;
+        }
+        self.head.write_row(&mut self.file, record)?;
+        self.rows += 1;
+        if self.rows.is_multiple_of(ROWS_BETWEEN_FLUSHES) {
+            self.file.flush()?;
+        }
+        Ok(())
+    }
+}
+
+impl Head {
+    fn write_header(&self, out: &mut impl Write, first: &Record) -> io::Result<()> {
+        write!(out, "t_s,mode,active,waypoint")?;
+        for column in &self.columns {
+            write!(out, ",{column}")?;
+        }
+        write!(out, ",tool_x_m,tool_y_m,tool_z_m")?;
+        let measured = first.q_measured.map(|_| ("q", "_measured_rad"));
+        let groups = [("q", "_rad"), ("qd", "_rad_s"), ("qdd", "_rad_s2")];
+        for (name, unit) in groups.into_iter().chain(measured) {
+            for joint in 1..=first.q.len() {
+                write!(out, ",{name}{joint}{unit}")?;
+            }
+        }
+        writeln!(out)
+    }
+
+    fn write_row(&mut self, out: &mut impl Write, record: &Record) -> io::Result<()> {
+        let mode = match self.last_mode.take() {
+            Some((active, printed)) if active == record.active => printed,
+            _ => self.print_mode(&record.active),
+        };
+        write!(out, "{:?},{mode},{}", record.t_s, record.waypoint)?;
+        self.last_mode = Some((record.active, mode));
+        // `{:?}` is the shortest form that reads back as the same number.
+        for value in record.task_values.iter().chain(&record.tool.to_array()) {
+            write!(out, ",{value:?}")?;
+        }
+        for joints in [
+            Some(record.q),
+            Some(record.qd),
+            Some(record.qdd),
+            record.q_measured,
+        ] {
+            for value in joints.iter().flat_map(|joints| joints.iter()) {
+                write!(out, ",{value:?}")?;
+            }
+        }
+        writeln!(out)
+    }
+
+    /// `number,names`.
+    fn print_mode(&self, active: &ActiveSet) -> String {
+        let number = self
+            .mode_order
+            .number(active)
+            .map_or(String::new(), |n| n.to_string());
+        let names: Vec<&str> = active
+            .iter()
+            .map(|task| self.task_names[task.index()].as_str())
+            .collect();
+        format!("{number},{}", names.join("+"))
+    }
+}

@@ -1,0 +1,222 @@
+//! The run loop: wait for the arm's cycle, decide, send, record.
+
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Instant;
+
+use conik::{ActiveSet, Frame, JointVec, Monitor, Stack, TaskId};
+
+use crate::arm::{Arm, ArmError, Feedback, Reference};
+use crate::experiment::Experiment;
+use crate::record::Record;
+use crate::summary::Outcome;
+
+/// How far a joint of the arm may be from the scenario's start [rad]. The run then begins where the
+/// arm is; from further away it does not begin.
+pub const START_TOLERANCE_RAD: f64 = 0.02;
+
+/// Where the loop hands its records to. An error ends the run.
+pub trait Sink {
+    /// Takes one record. Must not block if the arm is a real one.
+    fn take(&mut self, record: Record) -> Result<(), ArmError>;
+}
+
+impl<F: FnMut(Record) -> Result<(), ArmError>> Sink for F {
+    fn take(&mut self, record: Record) -> Result<(), ArmError> {
+        self(record)
+    }
+}
+
+/// What is left when a run has ended.
+#[derive(Debug)]
+pub struct Ended {
+    /// How it ended.
+    pub outcome: Outcome,
+    /// What the monitors saw.
+    pub monitor: Monitor,
+    /// The experiment, in its last state.
+    pub experiment: Experiment,
+}
+
+/// Runs an experiment on an arm until its end, a fault, or until `stop` is set. The arm is brought to
+/// a stop in every case before this returns.
+///
+/// The loop is closed on the reference: `q` is the last reference and never a measurement (Fig. 2 of
+/// the paper). The reference sent at tick k is q at t = k / rate, so that the first one is the pose
+/// in which the arm already is.
+pub fn run(
+    mut experiment: Experiment,
+    arm: &mut dyn Arm,
+    sink: &mut dyn Sink,
+    stop: &AtomicBool,
+) -> Ended {
+    let mut monitor = Monitor::new(experiment.controller.stack());
+    let ended = drive(&mut experiment, &mut monitor, arm, sink, stop);
+    let stopped = arm.stop();
+    let outcome = match ended.and_then(|completed| stopped.map(|()| completed)) {
+        Ok(true) => Outcome::Completed,
+        Ok(false) => Outcome::Interrupted,
+        Err(fault) => Outcome::Fault {
+            name: fault.name.to_owned(),
+            detail: fault.detail,
+        },
+    };
+    Ended {
+        outcome,
+        monitor,
+        experiment,
+    }
+}
+
+/// `true` if the run went to its end, `false` if it was interrupted.
+fn drive(
+    experiment: &mut Experiment,
+    monitor: &mut Monitor,
+    arm: &mut dyn Arm,
+    sink: &mut dyn Sink,
+    stop: &AtomicBool,
+) -> Result<bool, ArmError> {
+    let rate_hz = experiment.controller.settings().rate_hz;
+    let present = arm.start(rate_hz)?;
+    let mut q = begin_at(&present, &experiment.q0)?;
+    let columns = Columns::new(experiment.controller.stack());
+    let mut last_active: Option<ActiveSet> = None;
+    for tick in 0..=experiment.last_tick {
+        if stop.load(Ordering::Relaxed) {
+            return Ok(false);
+        }
+        let feedback = arm.next_cycle()?;
+        let t_s = tick as f64 / rate_hz;
+        let mut record = decide(experiment, &columns, &q, &feedback)?;
+        let step = experiment.controller.last_step();
+        arm.send(&Reference {
+            q,
+            qd: step.qd,
+            qdd: step.qdd,
+        })?;
+        monitor.observe(experiment.controller.stack(), step, t_s);
+        q = step.q_ref;
+
+        record.tick = tick;
+        record.t_s = t_s;
+        record.mode_changed = last_active != Some(record.active);
+        last_active = Some(record.active);
+        sink.take(record)?;
+    }
+    Ok(true)
+}
+
+/// Where the run begins: in the arm's present pose, if that is the scenario's start.
+fn begin_at(present: &JointVec, q0: &JointVec) -> Result<JointVec, ArmError> {
+    if present.len() != q0.len() {
+        return Err(ArmError::new(
+            "wrong-arm",
+            format!(
+                "the arm has {} joints, the scenario's robot {}",
+                present.len(),
+                q0.len()
+            ),
+        ));
+    }
+    for (joint, (present, start)) in present.iter().zip(q0.iter()).enumerate() {
+        let away = (present - start).abs();
+        if !(away <= START_TOLERANCE_RAD) {
+            return Err(ArmError::new(
+                "start-away",
+                format!(
+                    "joint {} of the arm is at {present:.4} rad, the scenario starts at \
+                     {start:.4} rad: move the arm there first (at most {START_TOLERANCE_RAD} rad \
+                     away), or change the scenario's start",
+                    joint + 1
+                ),
+            ));
+        }
+    }
+    Ok(*present)
+}
+
+/// One step of the controller at q, and the record of it but for its place in the run.
+fn decide(
+    experiment: &mut Experiment,
+    columns: &Columns,
+    q: &JointVec,
+    feedback: &Feedback,
+) -> Result<Record, ArmError> {
+    let controller = &mut experiment.controller;
+    let tool = controller.kinematics_at(q).base_from(Frame::Tool).origin;
+    let (mut waypoint, mut reached) = (0, None);
+    if let Some((task, waypoints)) = &mut experiment.waypoints {
+        reached = waypoints.advance(tool);
+        waypoint = waypoints.index();
+        if reached.is_some() {
+            let target = waypoints.target().to_array();
+            controller
+                .setpoints()
+                .set_desired(*task, &target)
+                .map_err(|error| ArmError::new("bad-waypoint", error.to_string()))?;
+        }
+    }
+    let before = Instant::now();
+    let step = controller
+        .step(q)
+        .map_err(|error| ArmError::new("no-reference", error.to_string()))?;
+    let step_ns = u64::try_from(before.elapsed().as_nanos()).unwrap_or(u64::MAX);
+    Ok(Record {
+        tick: 0,
+        t_s: 0.0,
+        active: step.active,
+        mode_changed: false,
+        waypoint,
+        reached,
+        task_values: columns.values(step),
+        tool,
+        q: *q,
+        qd: step.qd,
+        qdd: step.qdd,
+        q_measured: feedback.q,
+        speed_limited: step.speed_limit.is_some(),
+        no_mode: step.no_mode,
+        step_ns,
+        missed_cycles: feedback.missed_cycles,
+    })
+}
+
+/// Which numbers of the tasks stand in a record, in which order.
+#[derive(Clone, Debug)]
+pub struct Columns {
+    scalars: Vec<TaskId>,
+    equalities: Vec<TaskId>,
+}
+
+impl Columns {
+    /// The columns of a stack: values of its scalar tasks, then errors of its equality tasks.
+    pub fn new(stack: &Stack) -> Self {
+        Self {
+            scalars: stack
+                .iter()
+                .filter(|(_, level)| level.task().dimension() == 1)
+                .map(|(id, _)| id)
+                .collect(),
+            equalities: stack
+                .iter()
+                .filter(|(_, level)| level.interval().is_none())
+                .map(|(id, _)| id)
+                .collect(),
+        }
+    }
+
+    /// Names of the columns: `<task>`, then `<task>_error`.
+    pub fn names(&self, stack: &Stack) -> Vec<String> {
+        let values = self.scalars.iter().map(|&id| stack[id].name().to_owned());
+        let errors = self
+            .equalities
+            .iter()
+            .map(|&id| format!("{}_error", stack[id].name()));
+        values.chain(errors).collect()
+    }
+
+    fn values(&self, step: &conik::Step) -> Vec<f64> {
+        let values = self.scalars.iter().map(|&id| step.value(id)[0]);
+        let errors = self.equalities.iter().map(|&id| step.error_norm(id));
+        values.chain(errors).collect()
+    }
+}

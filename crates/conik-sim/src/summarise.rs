@@ -1,0 +1,188 @@
+//! Puts the summary together, tick by tick.
+
+use std::collections::BTreeMap;
+
+use conik::{Deviation, Goal, JointVec, Stack};
+
+use crate::record::Record;
+use crate::run::Ended;
+use crate::summary::{
+    FORMAT, ModeChange, Properties, Property, Settings, StepTime, Summary, TaskSummary, Tracking,
+};
+
+/// Takes in the records of a run and, at its end, gives the summary.
+#[derive(Clone, Debug)]
+pub struct Summariser {
+    task_names: Vec<String>,
+    mode_order: conik::ModeOrder,
+    modes: Vec<ModeChange>,
+    reached: Vec<Option<f64>>,
+    step_ns: Vec<u64>,
+    last: Option<(f64, JointVec)>,
+    tracking: Option<TrackingSum>,
+    deadline_misses: u64,
+    speed_limited_ticks: u64,
+    no_mode_ticks: u64,
+}
+
+#[derive(Clone, Debug)]
+struct TrackingSum {
+    max: JointVec,
+    squares: JointVec,
+    ticks: u64,
+}
+
+impl Summariser {
+    /// A summary of a run of this stack with so many waypoints.
+    pub fn new(stack: &Stack, waypoints: usize) -> Self {
+        Self {
+            task_names: stack
+                .iter()
+                .map(|(_, level)| level.name().to_owned())
+                .collect(),
+            mode_order: conik::ModeOrder::new(stack),
+            modes: Vec::new(),
+            reached: vec![None; waypoints],
+            step_ns: Vec::new(),
+            last: None,
+            tracking: None,
+            deadline_misses: 0,
+            speed_limited_ticks: 0,
+            no_mode_ticks: 0,
+        }
+    }
+
+    /// Takes in one tick.
+    pub fn take(&mut self, record: &Record) {
+        if record.mode_changed {
+            self.modes.push(ModeChange {
+                t_s: record.t_s,
+                mode: self.mode_order.number(&record.active),
+                active: record
+                    .active
+                    .iter()
+                    .map(|task| self.task_names[task.index()].clone())
+                    .collect(),
+            });
+        }
+        if let Some(reached) = record.reached.and_then(|index| self.reached.get_mut(index)) {
+            *reached = Some(record.t_s);
+        }
+        self.step_ns.push(record.step_ns);
+        self.last = Some((record.t_s, record.q));
+        self.deadline_misses += record.missed_cycles;
+        self.speed_limited_ticks += u64::from(record.speed_limited);
+        self.no_mode_ticks += u64::from(record.no_mode);
+        if let Some(measured) = record.q_measured {
+            let still = JointVec::zeros(measured.len());
+            self.tracking
+                .get_or_insert(TrackingSum {
+                    max: still,
+                    squares: still,
+                    ticks: 0,
+                })
+                .add(&record.q, &measured);
+        }
+    }
+
+    /// The mode that was chosen last.
+    pub fn present_mode(&self) -> Option<&ModeChange> {
+        self.modes.last()
+    }
+
+    /// The summary of the run that has ended.
+    pub fn finish(self, ended: &Ended, settings: Settings, version: &str) -> Summary {
+        let stack = ended.experiment.controller.stack();
+        let period = 1.0 / ended.experiment.controller.settings().rate_hz;
+        let (ended_at_s, final_q) = self.last.unwrap_or((0.0, ended.experiment.q0));
+        Summary {
+            format: FORMAT,
+            version: version.to_owned(),
+            settings,
+            outcome: ended.outcome.clone(),
+            ended_at_s,
+            tasks: tasks(ended, period),
+            properties: properties(&ended.monitor.properties(stack), &self.task_names),
+            modes: self.modes,
+            waypoints_reached_s: self.reached,
+            final_q_rad: final_q.to_vec(),
+            step_time_us: step_time(self.step_ns),
+            deadline_misses: self.deadline_misses,
+            tracking: self.tracking.map(TrackingSum::finish),
+            speed_limited_ticks: self.speed_limited_ticks,
+            no_mode_ticks: self.no_mode_ticks,
+        }
+    }
+}
+
+impl TrackingSum {
+    fn add(&mut self, reference: &JointVec, measured: &JointVec) {
+        for i in 0..reference.len() {
+            let error = measured[i] - reference[i];
+            self.max[i] = self.max[i].max(error.abs());
+            self.squares[i] += error * error;
+        }
+        self.ticks += 1;
+    }
+
+    fn finish(self) -> Tracking {
+        let ticks = self.ticks as f64;
+        Tracking {
+            max_rad: self.max.to_vec(),
+            rms_rad: self
+                .squares
+                .iter()
+                .map(|sum| (sum / ticks).sqrt())
+                .collect(),
+        }
+    }
+}
+
+fn tasks(ended: &Ended, period: f64) -> BTreeMap<String, TaskSummary> {
+    let stack = ended.experiment.controller.stack();
+    stack
+        .iter()
+        .map(|(id, level)| {
+            let history = ended.monitor.history(id);
+            let is_set = matches!(level.goal(), Goal::Set { .. });
+            let summary = TaskSummary {
+                min: history.min.is_finite().then_some(history.min),
+                max: history.max.is_finite().then_some(history.max),
+                worst_violation: is_set.then_some(history.worst_violation),
+                entered_set_s: history.entered_s,
+                final_error: (!is_set).then_some(history.final_error),
+                active_s: is_set.then_some(history.active_ticks as f64 * period),
+            };
+            (level.name().to_owned(), summary)
+        })
+        .collect()
+}
+
+fn properties(properties: &conik::Properties, names: &[String]) -> Properties {
+    let property = |deviation: &Deviation| Property {
+        holds: deviation.holds(),
+        worst: deviation.worst,
+        at_s: deviation.at_s,
+        task: deviation.task.map(|task| names[task.index()].clone()),
+    };
+    Properties {
+        equality_converges: property(&properties.equality_converges),
+        inside_stays: property(&properties.inside_stays),
+        outside_never_worse: property(&properties.outside_never_worse),
+        entered_stays: property(&properties.entered_stays),
+        low_priority_excess: property(&properties.low_priority_excess),
+    }
+}
+
+fn step_time(mut step_ns: Vec<u64>) -> StepTime {
+    step_ns.sort_unstable();
+    let at = |share: usize| {
+        let index = step_ns.len().saturating_sub(1) * share / 100;
+        step_ns.get(index).map_or(0.0, |&ns| ns as f64 / 1e3)
+    };
+    StepTime {
+        median: at(50),
+        p99: at(99),
+        max: at(100),
+    }
+}

@@ -1,0 +1,107 @@
+//! Forward kinematics of the paper's UR5 against values from other sources.
+
+use conik::{DhRow, Frame, JacobianMut, Kinematics, Pose, Position, Robot, Task, Vec3};
+
+fn ur5() -> Robot {
+    Robot::builtin("ur5-paper").expect("built in")
+}
+
+fn assert_near(found: Vec3, expected: [f64; 3], tolerance: f64) {
+    let away = (found - Vec3::from(expected)).norm();
+    assert!(away <= tolerance, "{found:?} instead of {expected:?}");
+}
+
+/// The tool's z axis at three configurations, from a student thesis that used the paper's robot.
+#[test]
+fn tool_axis_agrees_with_a_thesis() {
+    let cases = [
+        (
+            [-1.432, -1.191, -1.810, -2.341, -2.144, -0.652],
+            [0.6056, -0.4149, 0.6791],
+        ),
+        (
+            [-0.915, -1.685, -1.741, -2.373, -2.156, -2.009],
+            [0.8877, -0.2479, 0.3880],
+        ),
+        (
+            [0.915, -1.685, -0.5, -2.373, -2.156, -2.009],
+            [-0.5160, 0.2352, 0.8237],
+        ),
+    ];
+    let mut kinematics = Kinematics::new(&ur5());
+    for (q, axis) in cases {
+        kinematics.update(&q);
+        assert_near(kinematics.base_from(Frame::Tool).z_axis, axis, 1e-4);
+    }
+}
+
+/// Rows of the position Jacobian at q = 0.1 in every joint, from the same thesis.
+#[test]
+fn position_jacobian_agrees_with_a_thesis() {
+    let expected = [
+        [0.2682, 0.2124, 0.1702, 0.0927, -0.0784, 0.0],
+        [-0.7639, 0.0213, 0.0171, 0.0093, 0.0004, 0.0],
+        [0.0, -0.7868, -0.3639, 0.0203, -0.0241, 0.0],
+    ];
+    let mut kinematics = Kinematics::new(&ur5());
+    kinematics.update(&[0.1; 6]);
+    let mut jacobian = [0.0; 18];
+    Position::of_tool().jacobian(&kinematics, &mut JacobianMut::new(&mut jacobian, 6));
+    for (row, expected) in jacobian.chunks(6).zip(expected) {
+        for (found, expected) in row.iter().zip(expected) {
+            assert!((found - expected).abs() < 6e-5, "{jacobian:?}");
+        }
+    }
+}
+
+/// The DH base of the paper, not the `base_link` of the maker's URDF, which is turned by π about z
+/// against it: there this point is (0.5703, 0.3663, 0.4725), lengths not rounded.
+#[test]
+fn tool_position_is_in_the_base_frame_of_the_paper() {
+    let mut kinematics = Kinematics::new(&ur5());
+    kinematics.update(&[0.3, -1.0, 0.7, 0.2, 0.5, 0.1]);
+    let tool = kinematics.base_from(Frame::Tool).origin;
+    assert_near(tool, [-0.5701, -0.3658, 0.4719], 1e-4);
+}
+
+#[test]
+fn links_follow_the_product_of_their_homogeneous_matrices() {
+    let rows = [DhRow::new(0.3, 0.4, 0.1), DhRow::new(-0.2, -1.3, 0.25)];
+    let robot = Robot::from_dh("two", &rows).expect("sound table");
+    let q = [0.7, -1.9];
+    let mut product = Pose::IDENTITY;
+    for (row, theta) in rows.iter().zip(q) {
+        let ((st, ct), (sa, ca)) = (f64::sin_cos(theta), f64::sin_cos(row.alpha_rad));
+        product = product
+            * Pose {
+                x_axis: Vec3::new(ct, st, 0.0),
+                y_axis: Vec3::new(-st * ca, ct * ca, sa),
+                z_axis: Vec3::new(st * sa, -ct * sa, ca),
+                origin: Vec3::new(row.a_m * ct, row.a_m * st, row.d_m),
+            };
+    }
+    let mut kinematics = Kinematics::new(&robot);
+    kinematics.update(&q);
+    for (found, expected) in kinematics
+        .base_from(Frame::Tool)
+        .to_matrix()
+        .iter()
+        .zip(product.to_matrix())
+    {
+        for (found, expected) in found.iter().zip(expected) {
+            assert!((found - expected).abs() < 1e-15);
+        }
+    }
+}
+
+#[test]
+fn robots_that_cannot_be_are_refused() {
+    assert!(Robot::from_dh("none", &[]).is_err());
+    assert!(Robot::from_dh("many", &[DhRow::default(); 33]).is_err());
+    assert!(Robot::from_dh("nan", &[DhRow::new(f64::NAN, 0.0, 0.0)]).is_err());
+    let error = Robot::builtin("ur6").expect_err("unknown").to_string();
+    assert!(
+        error.contains("ur6") && error.contains("ur5-paper"),
+        "{error}"
+    );
+}

@@ -1,0 +1,74 @@
+//! `step` never touches the heap, whatever the rule finds.
+
+mod paper;
+
+use std::alloc::{GlobalAlloc, Layout, System};
+use std::sync::atomic::{AtomicU64, Ordering};
+
+use conik::{ModeRule, Settings};
+use paper::Example;
+
+struct Counting;
+
+static ALLOCATIONS: AtomicU64 = AtomicU64::new(0);
+
+#[allow(
+    unsafe_code,
+    reason = "counting needs an allocator of its own; it only passes calls on"
+)]
+unsafe impl GlobalAlloc for Counting {
+    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
+        ALLOCATIONS.fetch_add(1, Ordering::Relaxed);
+        unsafe { System.alloc(layout) }
+    }
+
+    unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
+        ALLOCATIONS.fetch_add(1, Ordering::Relaxed);
+        unsafe { System.dealloc(pointer, layout) }
+    }
+
+    unsafe fn realloc(&self, pointer: *mut u8, layout: Layout, size: usize) -> *mut u8 {
+        ALLOCATIONS.fetch_add(1, Ordering::Relaxed);
+        unsafe { System.realloc(pointer, layout, size) }
+    }
+}
+
+#[global_allocator]
+static ALLOCATOR: Counting = Counting;
+
+/// One test in this file: another one beside it would allocate while this one counts.
+#[test]
+fn no_tick_of_any_example_allocates() {
+    for number in 1..=3 {
+        for mode_rule in [ModeRule::Paper, ModeRule::Border] {
+            let settings = Settings {
+                mode_rule,
+                ..Settings::of_the_paper()
+            };
+            let mut example = Example::new(number, paper::thesis(), settings);
+            let before = ALLOCATIONS.load(Ordering::Relaxed);
+            let mut most_active = 0;
+            for _ in 0..7500 {
+                most_active = most_active.max(example.tick().active.len());
+            }
+            // Bad input takes its own way out.
+            assert!(example.controller.step(&[f64::NAN; 6]).is_err());
+            assert!(example.controller.step(&[0.0; 5]).is_err());
+            assert_eq!(
+                ALLOCATIONS.load(Ordering::Relaxed),
+                before,
+                "example {number}"
+            );
+            assert!(
+                most_active >= 1,
+                "the run went through modes with active sets"
+            );
+        }
+    }
+    let before = ALLOCATIONS.load(Ordering::Relaxed);
+    drop(std::hint::black_box(Box::new(1)));
+    assert!(
+        ALLOCATIONS.load(Ordering::Relaxed) > before,
+        "the counter counts"
+    );
+}
