@@ -100,8 +100,7 @@ fn read_groups(table: &Table, found: &mut Mistakes) -> Option<Vec<Group>> {
     let Some(list) = table.value(&keys::EXCLUSIVE) else {
         return Some(vec![]);
     };
-    let expected = keys::EXCLUSIVE.holds.expected();
-    let groups = list.members(expected, found)?;
+    let groups = list.lists("a list of task names", found)?;
     let groups: Vec<Option<Group>> = groups
         .iter()
         .map(|group| {

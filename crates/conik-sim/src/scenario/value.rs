@@ -105,6 +105,18 @@ impl<'a> Value<'a> {
         Some(members.collect())
     }
 
+    /// The members of a list of lists. The first member of another kind speaks for all: what is
+    /// missing is one pair of brackets.
+    pub(super) fn lists(&self, each: &str, found: &mut Mistakes) -> Option<Vec<Value<'a>>> {
+        let members = self.members(self.key.holds.expected(), found)?;
+        let other = members.iter().find(|it| !it.toml.get_ref().is_array());
+        if let Some(member) = other {
+            member.wrong_kind(each, found);
+            return None;
+        }
+        Some(members)
+    }
+
     /// A list of numbers in a range.
     pub(super) fn numbers(&self, range: &Range, found: &mut Mistakes) -> Option<Vec<f64>> {
         let members = self.members(self.key.holds.expected(), found)?;
@@ -134,7 +146,7 @@ impl<'a> Value<'a> {
 
     /// One or more points.
     pub(super) fn points(&self, range: &Range, found: &mut Mistakes) -> Option<Vec<[f64; 3]>> {
-        let members = self.members(self.key.holds.expected(), found)?;
+        let members = self.lists("a list of three numbers", found)?;
         if members.is_empty() {
             found.add(
                 self.span(),
