@@ -1,156 +1,51 @@
-//! The scenario: what one run is, as a checked value. Reading it from TOML is `read.rs`.
+//! The scenario file: one run of a robot, written in TOML.
+//!
+//! Here live the types of a scenario ([`Scenario`] and what it holds), reading them from the file
+//! with every mistake named and placed ([`Scenario::from_toml`], [`Scenario::load`]), writing them
+//! back ([`Scenario::to_toml`]), and the JSON Schema of the file ([`schema`]). Nothing here knows
+//! how a scenario is run.
+//!
+//! What the file may say stands in one place each: `keys.rs` (the keys of every table),
+//! `task_types.rs` (what a task can measure), `choice.rs` (settings with a fixed list of values)
+//! and `robots.rs`. Reader and schema are both driven by those tables.
 
-use serde::{Deserialize, Serialize};
+mod choice;
+mod config;
+mod control;
+mod direction;
+mod goal;
+mod hierarchy;
+mod joints;
+mod key;
+mod keys;
+mod load;
+mod mistake;
+mod names;
+mod place;
+mod read;
+mod robot;
+mod robots;
+mod schema;
+mod suggest;
+mod syntax;
+mod table;
+mod task;
+mod task_types;
+mod value;
+mod write;
 
-/// One run: a robot, a start, the settings of the controller and the tasks in decreasing priority.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Scenario {
-    /// A line for people.
-    pub title: Option<String>,
-    /// The robot and where it starts.
-    pub robot: RobotConfig,
-    /// How the controller works.
-    pub control: Control,
-    /// The tasks, the most important first.
-    #[serde(rename = "task")]
-    pub tasks: Vec<TaskConfig>,
-}
+pub use choice::Choice;
+pub use config::{
+    Axis, Border, Control, GoalConfig, ModeRule, Recursion, RobotConfig, Scenario, TaskConfig,
+    TaskKind,
+};
+pub use load::{LoadError, MAX_FILE_BYTES};
+pub use mistake::{Mistake, ScenarioErrors};
+pub use robots::{RobotFacts, known_robots};
+pub use schema::schema;
 
-/// The robot and where it starts.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct RobotConfig {
-    /// Name of a built-in robot.
-    pub model: String,
-    /// Joint positions at the start [rad] (scenario files may say `q0_deg` instead).
-    pub q0_rad: Vec<f64>,
-}
-
-/// How the controller works.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Control {
-    /// Control rate [Hz].
-    pub rate_hz: f64,
-    /// Length of the run [s].
-    pub duration_s: f64,
-    /// Which rule chooses the active set-based tasks.
-    pub mode_rule: ModeRule,
-    /// What happens at the border of a set between samples.
-    pub border: Border,
-    /// How the velocities of lower levels are fitted under the higher ones.
-    pub recursion: Recursion,
-    /// Groups of set-based tasks of which no two are ever active together.
-    pub exclusive: Vec<Vec<String>>,
-}
-
-/// `control.mode_rule`.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum ModeRule {
-    /// All subsets of the set-based tasks, the paper's order.
-    Paper,
-    /// The same, but only tasks at or outside their border may be active.
-    Border,
-}
-
-/// `control.border`.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Border {
-    /// Active high-priority sets are frozen, as in the paper.
-    Freeze,
-}
-
-/// `control.recursion`.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Recursion {
-    /// The singularity-robust form of the paper.
-    Chiaverini,
-}
-
-/// One task: what it measures, and what is asked of it.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct TaskConfig {
-    /// Unique name, `[A-Za-z0-9_./-]+`.
-    pub name: String,
-    /// What it measures.
-    #[serde(flatten)]
-    pub kind: TaskKind,
-    /// What is asked of it.
-    #[serde(flatten)]
-    pub goal: GoalConfig,
-}
-
-/// What a task measures; `type` in the file.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(tag = "type", rename_all = "snake_case")]
-pub enum TaskKind {
-    /// Tool position in the base frame [m]; dimension 3.
-    Position,
-    /// One coordinate of the tool position [m].
-    Coordinate {
-        /// Which one.
-        axis: Axis,
-    },
-    /// Distance of the tool to a point [m].
-    Distance {
-        /// The point in the base frame [m].
-        point_m: [f64; 3],
-    },
-    /// Norm of (direction − tool z axis) [-].
-    FieldOfView {
-        /// The direction in the base frame, of length 1.
-        direction: [f64; 3],
-    },
-    /// Position of one joint [rad or m].
-    Joint {
-        /// 1-based number of the joint.
-        joint: usize,
-    },
-}
-
-/// A coordinate axis of the base frame.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Axis {
-    /// x
-    X,
-    /// y
-    Y,
-    /// z
-    Z,
-}
-
-/// What is asked of a task.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(untagged)]
-pub enum GoalConfig {
-    /// Equality task: visit points one after the other.
-    Waypoints {
-        /// The points in the base frame [m].
-        waypoints_m: Vec<[f64; 3]>,
-        /// At this distance [m] the next point is taken.
-        acceptance_m: f64,
-        /// Λ [1/s].
-        gain_per_s: f64,
-    },
-    /// Equality task: one desired value (one entry, or three for `position`).
-    Desired {
-        /// σ_des in the task's unit.
-        desired: Vec<f64>,
-        /// Λ [1/s].
-        gain_per_s: f64,
-    },
-    /// Set-based task.
-    Set {
-        /// Least allowed value.
-        #[serde(skip_serializing_if = "Option::is_none")]
-        min: Option<f64>,
-        /// Greatest allowed value.
-        #[serde(skip_serializing_if = "Option::is_none")]
-        max: Option<f64>,
-        /// Λ [1/s], needed below the first equality task only.
-        #[serde(skip_serializing_if = "Option::is_none")]
-        gain_per_s: Option<f64>,
-    },
+/// A commented scenario to start from: every key with its unit and default, and a small working
+/// example.
+pub fn template() -> &'static str {
+    include_str!("../../../../scenarios/template.toml")
 }

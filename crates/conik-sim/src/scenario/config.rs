@@ -1,0 +1,170 @@
+//! What one run is, as a value: the types that the rest of the program works with.
+
+use serde::{Deserialize, Serialize};
+
+/// One run: a robot, a start, the settings of the controller and the tasks in decreasing priority.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Scenario {
+    /// A line for people.
+    pub title: Option<String>,
+    /// The robot and where it starts.
+    pub robot: RobotConfig,
+    /// How the controller works.
+    pub control: Control,
+    /// The tasks, the most important first.
+    #[serde(rename = "task")]
+    pub tasks: Vec<TaskConfig>,
+}
+
+/// The robot and where it starts.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct RobotConfig {
+    /// Name of a built-in robot.
+    pub model: String,
+    /// Joint positions at the start [rad] (scenario files may say `q0_deg` instead).
+    pub q0_rad: Vec<f64>,
+}
+
+/// How the controller works.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Control {
+    /// Control rate [Hz].
+    pub rate_hz: f64,
+    /// Length of the run [s].
+    pub duration_s: f64,
+    /// Which rule chooses the active set-based tasks.
+    pub mode_rule: ModeRule,
+    /// What happens at the border of a set between samples.
+    pub border: Border,
+    /// How the velocities of lower levels are fitted under the higher ones.
+    pub recursion: Recursion,
+    /// Groups of set-based tasks of which no two are ever active together.
+    pub exclusive: Vec<Vec<String>>,
+}
+
+impl Default for Control {
+    /// What holds where the file says nothing.
+    fn default() -> Self {
+        Self {
+            rate_hz: 125.0,
+            duration_s: 60.0,
+            mode_rule: ModeRule::Border,
+            border: Border::Freeze,
+            recursion: Recursion::Chiaverini,
+            exclusive: Vec::new(),
+        }
+    }
+}
+
+/// `control.mode_rule`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum ModeRule {
+    /// All subsets of the set-based tasks, the paper's order.
+    Paper,
+    /// The same, but only tasks at or outside their border may be active.
+    Border,
+}
+
+/// `control.border`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Border {
+    /// Active high-priority sets are frozen, as in the paper.
+    Freeze,
+}
+
+/// `control.recursion`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Recursion {
+    /// The singularity-robust form of the paper.
+    Chiaverini,
+}
+
+/// One task: what it measures, and what is asked of it.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct TaskConfig {
+    /// Unique name, `[A-Za-z0-9_./-]+`.
+    pub name: String,
+    /// What it measures.
+    #[serde(flatten)]
+    pub kind: TaskKind,
+    /// What is asked of it.
+    #[serde(flatten)]
+    pub goal: GoalConfig,
+}
+
+/// What a task measures; `type` in the file.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(tag = "type", rename_all = "snake_case")]
+pub enum TaskKind {
+    /// Tool position in the base frame [m]; dimension 3.
+    Position,
+    /// One coordinate of the tool position [m].
+    Coordinate {
+        /// Which one.
+        axis: Axis,
+    },
+    /// Distance of the tool to a point [m].
+    Distance {
+        /// The point in the base frame [m].
+        point_m: [f64; 3],
+    },
+    /// Norm of (direction − tool z axis) [-].
+    FieldOfView {
+        /// The direction in the base frame, of length 1.
+        direction: [f64; 3],
+    },
+    /// Position of one joint [rad or m].
+    Joint {
+        /// 1-based number of the joint.
+        joint: usize,
+    },
+}
+
+/// A coordinate axis of the base frame.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Axis {
+    /// x
+    X,
+    /// y
+    Y,
+    /// z
+    Z,
+}
+
+/// What is asked of a task.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(untagged)]
+pub enum GoalConfig {
+    /// Equality task: visit points one after the other.
+    Waypoints {
+        /// The points in the base frame [m].
+        waypoints_m: Vec<[f64; 3]>,
+        /// At this distance [m] the next point is taken.
+        acceptance_m: f64,
+        /// Λ [1/s].
+        gain_per_s: f64,
+    },
+    /// Equality task: one desired value (one entry, or three for `position`).
+    Desired {
+        /// `σ_des` in the task's unit.
+        desired: Vec<f64>,
+        /// Λ [1/s].
+        gain_per_s: f64,
+    },
+    /// Set-based task.
+    Set {
+        /// Least allowed value.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        min: Option<f64>,
+        /// Greatest allowed value.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        max: Option<f64>,
+        /// Λ [1/s], needed below the first equality task only.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        gain_per_s: Option<f64>,
+    },
+}

@@ -1,0 +1,142 @@
+//! What concerns all tasks together: their names, their priority, and which exclude each other.
+
+use std::collections::{HashMap, HashSet};
+
+use super::control::Group;
+use super::keys;
+use super::mistake::{Mistakes, quoted};
+use super::names;
+use super::place;
+use super::suggest::nearest;
+use super::task::{ReadTask, Role};
+
+/// Set-based tasks that one scenario may have at most.
+const MOST_SETS: usize = 256;
+
+pub(super) fn check(tasks: &[ReadTask], groups: &[Group], found: &mut Mistakes) {
+    names::check_unique(tasks, found);
+    check_low_priority_gains(tasks, found);
+    check_one_has_waypoints(tasks, found);
+    check_number_of_sets(tasks, found);
+    for group in groups {
+        check_group(group, tasks, found);
+    }
+}
+
+/// A set-based task below an equality task is driven back with a gain, as an equality task is.
+fn check_low_priority_gains(tasks: &[ReadTask], found: &mut Mistakes) {
+    let Some(first) = tasks.iter().position(|task| task.role == Role::Equality) else {
+        return;
+    };
+    for task in &tasks[first..] {
+        if task.role == Role::Set && !task.has_gain {
+            found.add(
+                task.header.clone(),
+                place::join(&task.path, keys::GAIN_PER_S.name),
+                format!(
+                    "missing: a set below the equality task {} has low priority and needs a gain",
+                    tasks[first].path
+                ),
+                format!(
+                    "{}, or move the task above it",
+                    keys::GAIN_PER_S.write_example()
+                ),
+            );
+        }
+    }
+}
+
+/// The log has one column for the waypoint in use.
+fn check_one_has_waypoints(tasks: &[ReadTask], found: &mut Mistakes) {
+    let mut with_waypoints = tasks
+        .iter()
+        .filter_map(|task| Some((task, task.waypoints.clone()?)));
+    let Some((first, _)) = with_waypoints.next() else {
+        return;
+    };
+    for (task, span) in with_waypoints {
+        found.add(
+            span,
+            place::join(&task.path, keys::WAYPOINTS_M.name),
+            format!(
+                "{} has waypoints already, and only one task can",
+                first.path
+            ),
+            "give this one `target_m`",
+        );
+    }
+}
+
+fn check_number_of_sets(tasks: &[ReadTask], found: &mut Mistakes) {
+    let sets = || tasks.iter().filter(|task| task.role == Role::Set);
+    if let Some(task) = sets().nth(MOST_SETS) {
+        found.add(
+            task.header.clone(),
+            &*task.path,
+            format!("{} set-based tasks are too many", sets().count()),
+            format!("a scenario has at most {MOST_SETS}"),
+        );
+    }
+}
+
+/// Notes what is wrong with one group of `exclusive`.
+fn check_group(group: &Group, tasks: &[ReadTask], found: &mut Mistakes) {
+    if group.value.len() < 2 {
+        found.add(
+            group.span.clone(),
+            &*group.path,
+            "a group needs at least two tasks that exclude each other",
+            keys::EXCLUSIVE.write_example(),
+        );
+    }
+    let roles: HashMap<&str, Role> = tasks
+        .iter()
+        .filter_map(|task| Some((task.name.as_ref()?.value.as_str(), task.role)))
+        .collect();
+    let mut seen = HashSet::new();
+    for name in &group.value {
+        if found.is_full() {
+            return;
+        }
+        let first_time = seen.insert(&name.value);
+        let shown = quoted(&name.value);
+        let (what, help) = match roles.get(name.value.as_str()) {
+            _ if !first_time => (
+                format!("{shown} stands in this group twice"),
+                "remove one of them".to_owned(),
+            ),
+            Some(Role::Set | Role::Unclear) => continue,
+            Some(Role::Equality) => (
+                format!("{shown} is an equality task, which is always active"),
+                "only set-based tasks can exclude each other".to_owned(),
+            ),
+            None => (
+                format!("there is no task {shown}"),
+                meant_set(&name.value, tasks),
+            ),
+        };
+        found.add(name.span.clone(), &*name.path, what, help);
+    }
+}
+
+/// Which set-based task may be meant by a name that no task has.
+fn meant_set(name: &str, tasks: &[ReadTask]) -> String {
+    let sets = tasks.iter().filter(|task| task.role == Role::Set);
+    let names = sets.filter_map(|task| Some(task.name.as_ref()?.value.as_str()));
+    match nearest(name, names.clone()) {
+        Some(meant) => format!("did you mean {}?", quoted(meant)),
+        None => format!("the set-based tasks are: {}", first_few(names)),
+    }
+}
+
+/// `"a", "b", ...`
+fn first_few<'a>(names: impl Iterator<Item = &'a str>) -> String {
+    let mut listed: Vec<_> = names.take(9).map(quoted).collect();
+    if listed.is_empty() {
+        return "none".to_owned();
+    }
+    if listed.len() == 9 {
+        listed[8] = String::from("...");
+    }
+    listed.join(", ")
+}

@@ -1,0 +1,238 @@
+//! Every key of the scenario file, table by table. To add one, add it here, to the list of its
+//! table, and to the function that reads that table.
+
+use super::config::{Axis, Border, ModeRule, Recursion};
+use super::key::{Holds, Key, Range};
+
+/// Slower than 1 Hz nothing is controlled; no arm takes references faster than 10 kHz.
+const RATE: Range = Range::between(1.0, 10_000.0);
+/// Up to a day.
+const DURATION: Range = Range::positive(86_400.0);
+/// A day at 500 Hz is 43 million ticks, and its log some 20 GB.
+pub(super) const MOST_TICKS: f64 = 50_000_000.0;
+/// 160 turns; more is a mistake of units.
+const START_RAD: f64 = 1_000.0;
+/// The same in degrees, rounded off.
+const START_DEG: f64 = 57_000.0;
+/// Gains are held to less than twice the control rate besides.
+const GAIN: Range = Range::positive(20_000.0);
+
+/// The file itself.
+pub(super) const FILE: &[&Key] = &[&TITLE, &ROBOT, &CONTROL, &TASK];
+
+pub(super) const TITLE: Key = Key::new(
+    "title",
+    "",
+    "A line for people",
+    Holds::Text,
+    r#""Pick and place beside a pillar""#,
+);
+pub(super) const ROBOT: Key = Key::new(
+    "robot",
+    "",
+    "The robot and where it starts",
+    Holds::Table,
+    "[robot]",
+);
+pub(super) const CONTROL: Key = Key::new(
+    "control",
+    "",
+    "How the controller works; may be left out",
+    Holds::Table,
+    "[control]",
+);
+pub(super) const TASK: Key = Key::new(
+    "task",
+    "",
+    "The tasks in decreasing priority. A task with `min` and/or `max` is set-based, one with a \
+     desired value is an equality task. A set-based task above the first equality task has high \
+     priority: only there is it guaranteed",
+    Holds::Tables,
+    "[[task]]",
+);
+
+/// `[robot]`.
+pub(super) const ROBOT_KEYS: &[&Key] = &[&MODEL, &Q0_DEG, &Q0_RAD];
+
+pub(super) const MODEL: Key = Key::new(
+    "model",
+    "",
+    "Name of a built-in robot",
+    Holds::Robot,
+    r#""ur5-paper""#,
+);
+pub(super) const Q0_DEG: Key = Key::new(
+    "q0_deg",
+    "deg",
+    "Joint positions at the start, base to tool (either this or `q0_rad`)",
+    Holds::JointNumbers(Range::within(START_DEG)),
+    "[-48, -158, -108, -90, -85, 0]",
+);
+pub(super) const Q0_RAD: Key = Key::new(
+    "q0_rad",
+    "rad",
+    "Joint positions at the start, base to tool (either this or `q0_deg`)",
+    Holds::JointNumbers(Range::within(START_RAD)),
+    "[-0.84, -2.76, -1.88, -1.57, -1.48, 0]",
+);
+
+/// Keys of `[robot]` that a later version will have.
+pub(super) const ROBOT_KEYS_NOT_YET: &[&str] = &["urdf", "base", "tool"];
+
+/// `[control]`.
+pub(super) const CONTROL_KEYS: &[&Key] = &[
+    &RATE_HZ,
+    &DURATION_S,
+    &MODE_RULE,
+    &BORDER,
+    &RECURSION,
+    &EXCLUSIVE,
+];
+
+pub(super) const RATE_HZ: Key = Key::new(
+    "rate_hz",
+    "Hz",
+    "Control rate: references a second",
+    Holds::Number(RATE),
+    "125",
+);
+pub(super) const DURATION_S: Key = Key::new(
+    "duration_s",
+    "s",
+    "Length of the run",
+    Holds::Number(DURATION),
+    "60",
+);
+pub(super) const MODE_RULE: Key = Key::new(
+    "mode_rule",
+    "",
+    "Which rule chooses the active set-based tasks",
+    Holds::choice::<ModeRule>(),
+    r#""border""#,
+);
+pub(super) const BORDER: Key = Key::new(
+    "border",
+    "",
+    "What happens at the border of a set between samples",
+    Holds::choice::<Border>(),
+    r#""freeze""#,
+);
+pub(super) const RECURSION: Key = Key::new(
+    "recursion",
+    "",
+    "How the velocities of lower tasks are fitted under the higher ones",
+    Holds::choice::<Recursion>(),
+    r#""chiaverini""#,
+);
+pub(super) const EXCLUSIVE: Key = Key::new(
+    "exclusive",
+    "",
+    "Groups of set-based tasks of which no two can ever be active together; such modes are struck \
+     out",
+    Holds::NameGroups,
+    r#"[["pillar", "table"]]"#,
+);
+
+/// What every `[[task]]` has, whatever its type.
+pub(super) const TASK_KEYS: &[&Key] = &[&NAME, &TYPE];
+
+pub(super) const NAME: Key = Key::new(
+    "name",
+    "",
+    "Unique name of letters, digits and `_ . / -`; a column of the log",
+    Holds::TaskName,
+    r#""pillar""#,
+);
+pub(super) const TYPE: Key = Key::new(
+    "type",
+    "",
+    "What the task measures",
+    Holds::TaskType,
+    r#""distance""#,
+);
+
+/// What can be asked of a task with one value.
+pub(super) const SCALAR_GOAL: &[&Key] = &[&DESIRED, &MIN, &MAX, &GAIN_PER_S];
+/// What can be asked of a task whose value is a point.
+pub(super) const POINT_GOAL: &[&Key] = &[&WAYPOINTS_M, &ACCEPTANCE_M, &TARGET_M, &GAIN_PER_S];
+
+pub(super) const DESIRED: Key = Key::new(
+    "desired",
+    "",
+    "Equality task: the desired value, in the task's unit",
+    Holds::Number(Range::SANE),
+    "0.5",
+);
+pub(super) const MIN: Key = Key::new(
+    "min",
+    "",
+    "Set-based task: least allowed value, in the task's unit",
+    Holds::Number(Range::SANE),
+    "0.18",
+);
+pub(super) const MAX: Key = Key::new(
+    "max",
+    "",
+    "Set-based task: greatest allowed value, in the task's unit",
+    Holds::Number(Range::SANE),
+    "0.8",
+);
+pub(super) const WAYPOINTS_M: Key = Key::new(
+    "waypoints_m",
+    "m",
+    "Equality task: points in the base frame to visit one after the other",
+    Holds::Points(Range::SANE),
+    "[[0.486, -0.066, -0.250], [0.320, 0.370, -0.250]]",
+);
+pub(super) const ACCEPTANCE_M: Key = Key::new(
+    "acceptance_m",
+    "m",
+    "At this distance to a waypoint the next one is taken",
+    Holds::Number(Range::positive(Range::SANE.most)),
+    "0.02",
+);
+pub(super) const TARGET_M: Key = Key::new(
+    "target_m",
+    "m",
+    "Equality task: one desired point in the base frame",
+    Holds::Vector(Range::SANE),
+    "[0.486, -0.066, -0.250]",
+);
+pub(super) const GAIN_PER_S: Key = Key::new(
+    "gain_per_s",
+    "1/s",
+    "How fast the error is to fall: an equality task and a set-based task of low priority need \
+     it. It must stay below twice the control rate",
+    Holds::Number(GAIN),
+    "0.5",
+);
+
+/// What some task types ask for besides.
+pub(super) const AXIS: Key = Key::new(
+    "axis",
+    "",
+    "Which coordinate of the tool position",
+    Holds::choice::<Axis>(),
+    r#""z""#,
+);
+pub(super) const POINT_M: Key = Key::new(
+    "point_m",
+    "m",
+    "The point in the base frame",
+    Holds::Vector(Range::SANE),
+    "[0.40, -0.25, -0.33]",
+);
+pub(super) const DIRECTION: Key = Key::new(
+    "direction",
+    "",
+    "The direction in the base frame, of any length but zero",
+    Holds::Vector(Range::FINITE),
+    "[1, 0, 0]",
+);
+pub(super) const JOINT: Key = Key::new(
+    "joint",
+    "",
+    "Number of the joint, from 1 at the base, or its name",
+    Holds::Joint,
+    r#""elbow_joint""#,
+);

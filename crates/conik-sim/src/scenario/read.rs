@@ -1,0 +1,98 @@
+//! Reading a scenario: the tables of the file from top to bottom, then what concerns all tasks.
+
+use super::config::Scenario;
+use super::control::{self, ReadControl};
+use super::hierarchy;
+use super::keys;
+use super::mistake::{Mistakes, ScenarioErrors};
+use super::robot;
+use super::robots::RobotFacts;
+use super::syntax;
+use super::table::{Entry, Table};
+use super::task::{self, ReadTask};
+
+/// What a task must know of the tables above it; `None` where they are wrong.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Surroundings {
+    pub(super) robot: Option<&'static RobotFacts>,
+    pub(super) rate_hz: Option<f64>,
+}
+
+impl Scenario {
+    /// Reads the text of a scenario file.
+    ///
+    /// # Errors
+    ///
+    /// Every independent mistake in the text, each with its place, its key, what is wrong and what
+    /// would be right. Mistakes of TOML syntax hide all others.
+    pub fn from_toml(text: &str) -> Result<Self, ScenarioErrors> {
+        let entries = syntax::parse(text)?;
+        let file = Table {
+            path: String::new(),
+            header: 0..0,
+            entries: &entries,
+        };
+        let mut found = Mistakes::new(text);
+        let scenario = read_file(&file, &mut found);
+        found.into_result(scenario)
+    }
+
+    /// Applies every check of [`Scenario::from_toml`] to a scenario that a program made or changed.
+    ///
+    /// # Errors
+    ///
+    /// As [`Scenario::from_toml`]; places are those in [`Scenario::to_toml`].
+    pub fn check(&self) -> Result<(), ScenarioErrors> {
+        Self::from_toml(&self.to_toml()).map(|_| ())
+    }
+}
+
+fn read_file(file: &Table, found: &mut Mistakes) -> Option<Scenario> {
+    file.refuse_unknown_keys(&keys::FILE.iter().copied(), |_| None, found);
+    let title = match file.text(&keys::TITLE, found) {
+        Entry::Absent(_) => Some(None),
+        entry => entry.given().map(|title| Some(title.to_owned())),
+    };
+
+    let robot_table = file.table(&keys::ROBOT, found).required(file, found);
+    let facts = robot_table
+        .as_ref()
+        .and_then(|table| robot::read_model(table, found));
+    let robot = robot_table.and_then(|table| robot::read(&table, facts, found));
+
+    let control = match file.table(&keys::CONTROL, found) {
+        Entry::Absent(_) => ReadControl::default(),
+        Entry::Wrong => ReadControl::unreadable(),
+        Entry::Given(table) => control::read(&table, found),
+    };
+
+    let surroundings = Surroundings {
+        robot: facts,
+        rate_hz: control.rate_hz,
+    };
+    let tasks: Option<Vec<ReadTask>> =
+        file.tables(&keys::TASK, found)
+            .required(file, found)
+            .map(|tables| {
+                let tasks = tables
+                    .iter()
+                    .map(|table| task::read(table, surroundings, found));
+                tasks.collect()
+            });
+    if let Some(tasks) = &tasks {
+        if tasks.is_empty() {
+            file.missing(&keys::TASK, found);
+        }
+        hierarchy::check(tasks, &control.groups, found);
+    }
+
+    Some(Scenario {
+        title: title?,
+        robot: robot?,
+        control: control.whole?,
+        tasks: tasks?
+            .into_iter()
+            .map(|task| task.config)
+            .collect::<Option<_>>()?,
+    })
+}

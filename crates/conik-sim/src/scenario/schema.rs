@@ -1,0 +1,205 @@
+//! The JSON Schema of the scenario file, for completion and checks in editors.
+
+use serde_json::{Map, Value, json};
+
+use super::config::Control;
+use super::key::{Holds, Key, Range};
+use super::keys;
+use super::names;
+use super::robots::known_robots;
+use super::task_types::{self, GoalShape, TaskType};
+
+/// The JSON Schema (draft-07) of the scenario file as this version reads it.
+///
+/// What a schema can express it does; what needs the whole file (unique names, gains below the
+/// first equality task, ...) only [`Scenario::from_toml`](super::Scenario::from_toml) checks.
+pub fn schema() -> Value {
+    let mut schema = table(keys::FILE, &["robot", "task"]);
+    set(
+        &mut schema,
+        "$schema",
+        json!("http://json-schema.org/draft-07/schema#"),
+    );
+    set(&mut schema, "title", json!("Scenario of conik"));
+    schema
+}
+
+fn set(object: &mut Value, key: &str, value: Value) {
+    object[key] = value;
+}
+
+/// A table with these keys, of which these must be there.
+fn table(known: &[&'static Key], required: &[&str]) -> Value {
+    let properties: Map<_, _> = known
+        .iter()
+        .map(|key| (key.name.to_owned(), property(key)))
+        .collect();
+    json!({
+        "type": "object",
+        "properties": properties,
+        "required": required,
+        "additionalProperties": false,
+    })
+}
+
+fn property(key: &Key) -> Value {
+    let mut schema = holds(key);
+    let unit = match key.unit {
+        "" => String::new(),
+        unit => format!(" [{unit}]"),
+    };
+    let mut about = vec![format!("{}{unit}", key.about)];
+    if let Holds::Choice(values) = key.holds {
+        let meanings = values().into_iter();
+        about.extend(meanings.map(|(name, meaning)| format!("- `{name}`: {meaning}")));
+    }
+    set(&mut schema, "description", json!(about.join("\n")));
+    // The one table with defaults is `[control]`; its type knows them.
+    if let Ok(defaults) = serde_json::to_value(Control::default())
+        && let Some(default) = defaults.get(key.name)
+    {
+        set(&mut schema, "default", default.clone());
+    }
+    schema
+}
+
+fn holds(key: &Key) -> Value {
+    match key.holds {
+        Holds::TaskName => json!({ "type": "string", "pattern": names::PATTERN }),
+        Holds::Robot => {
+            let names: Vec<_> = known_robots().iter().map(|robot| robot.name).collect();
+            json!({ "type": "string", "enum": names })
+        }
+        Holds::Text | Holds::TaskType => json!({ "type": "string" }),
+        Holds::Number(range) => number(range),
+        Holds::JointNumbers(range) => {
+            json!({ "type": "array", "items": number(range), "minItems": 1 })
+        }
+        Holds::Vector(range) => vector(range),
+        Holds::Points(range) => json!({ "type": "array", "items": vector(range), "minItems": 1 }),
+        Holds::Joint => json!({ "anyOf": [
+            { "type": "integer", "minimum": 1 },
+            { "type": "string", "enum": joint_names() },
+        ] }),
+        Holds::Choice(values) => {
+            let names: Vec<_> = values().into_iter().map(|(name, _)| name).collect();
+            json!({ "type": "string", "enum": names })
+        }
+        Holds::NameGroups => json!({
+            "type": "array",
+            "items": {
+                "type": "array",
+                "items": { "type": "string", "pattern": names::PATTERN },
+                "minItems": 2,
+                "uniqueItems": true,
+            },
+        }),
+        Holds::Table if key.name == keys::ROBOT.name => robot(),
+        Holds::Table => table(keys::CONTROL_KEYS, &[]),
+        Holds::Tables => json!({ "type": "array", "items": task(), "minItems": 1 }),
+    }
+}
+
+fn number(range: Range) -> Value {
+    if range == Range::FINITE {
+        return json!({ "type": "number" });
+    }
+    let least = if range.open {
+        "exclusiveMinimum"
+    } else {
+        "minimum"
+    };
+    json!({ "type": "number", least: range.least, "maximum": range.most })
+}
+
+fn vector(range: Range) -> Value {
+    json!({ "type": "array", "items": number(range), "minItems": 3, "maxItems": 3 })
+}
+
+/// Names of the joints of all robots.
+fn joint_names() -> Vec<&'static str> {
+    let mut names: Vec<_> = known_robots()
+        .iter()
+        .flat_map(|robot| robot.joint_names)
+        .copied()
+        .collect();
+    names.sort_unstable();
+    names.dedup();
+    names
+}
+
+fn robot() -> Value {
+    let mut schema = table(keys::ROBOT_KEYS, &[keys::MODEL.name]);
+    let start = json!([{ "required": ["q0_deg"] }, { "required": ["q0_rad"] }]);
+    set(&mut schema, "oneOf", start);
+    // As many numbers as the robot has joints.
+    let per_robot: Vec<_> = known_robots()
+        .iter()
+        .map(|robot| {
+            let joints = robot.joint_names.len();
+            let start = json!({ "minItems": joints, "maxItems": joints });
+            json!({
+                "if": { "properties": { "model": { "const": robot.name } } },
+                "then": { "properties": { "q0_deg": start, "q0_rad": start } },
+            })
+        })
+        .collect();
+    set(&mut schema, "allOf", json!(per_robot));
+    schema
+}
+
+fn task() -> Value {
+    let types: Vec<_> = task_types::ALL.iter().map(task_of_type).collect();
+    json!({ "type": "object", "oneOf": types })
+}
+
+fn task_of_type(task_type: &TaskType) -> Value {
+    let known: Vec<_> = task_type.all_keys().collect();
+    let always = keys::TASK_KEYS.iter().chain(task_type.keys);
+    let required: Vec<_> = always.map(|key| key.name).collect();
+    let mut schema = table(&known, &required);
+    set(&mut schema, "title", json!(task_type.name));
+    set(&mut schema, "description", json!(task_type.about));
+    schema["properties"]["type"] = json!({
+        "const": task_type.name,
+        "description": task_type.about,
+    });
+    let goals = match task_type.goal {
+        GoalShape::Point => json!([
+            { "required": ["waypoints_m", "acceptance_m", "gain_per_s"], "not": { "required": ["target_m"] } },
+            { "required": ["target_m", "gain_per_s"], "not": { "anyOf": [
+                { "required": ["waypoints_m"] },
+                { "required": ["acceptance_m"] },
+            ] } },
+        ]),
+        GoalShape::Scalar(..) => json!([
+            { "required": ["desired", "gain_per_s"], "not": { "anyOf": [
+                { "required": ["min"] },
+                { "required": ["max"] },
+            ] } },
+            { "not": { "required": ["desired"] }, "anyOf": [
+                { "required": ["min"] },
+                { "required": ["max"] },
+            ] },
+        ]),
+    };
+    set(&mut schema, "oneOf", goals);
+    if let GoalShape::Scalar(least, most) = task_type.goal {
+        restrict(&mut schema["properties"], least, most);
+    }
+    schema
+}
+
+/// Brings the values that a type can have into its limits and its desired value.
+fn restrict(properties: &mut Value, least: f64, most: f64) {
+    for key in [&keys::DESIRED, &keys::MAX] {
+        if least.is_finite() {
+            properties[key.name]["minimum"] = json!(least);
+        }
+    }
+    for key in [&keys::DESIRED, &keys::MIN] {
+        if most.is_finite() {
+            properties[key.name]["maximum"] = json!(most);
+        }
+    }
+}

@@ -1,0 +1,149 @@
+//! Reading one `[[task]]`.
+
+use std::ops::Range;
+
+use super::config::TaskConfig;
+use super::goal;
+use super::keys;
+use super::mistake::{Mistakes, quoted};
+use super::names;
+use super::place::Placed;
+use super::read::Surroundings;
+use super::table::{Table, unknown_name};
+use super::task_types::{self, GoalShape, TaskType};
+
+/// What was found in one `[[task]]`.
+#[derive(Debug)]
+pub(super) struct ReadTask {
+    /// The task, if everything in it is right.
+    pub(super) config: Option<TaskConfig>,
+    /// Its name, even if the rest is wrong.
+    pub(super) name: Option<Placed<String>>,
+    /// What its keys make of it, even if their values are wrong.
+    pub(super) role: Role,
+    /// Path of the task: `task[3] "view"`.
+    pub(super) path: String,
+    /// Its header.
+    pub(super) header: Range<usize>,
+    /// Whether it states a gain.
+    pub(super) has_gain: bool,
+    /// Where its waypoints stand.
+    pub(super) waypoints: Option<Range<usize>>,
+}
+
+/// What a task is in the hierarchy.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Role {
+    /// It has a desired value.
+    Equality,
+    /// It has limits.
+    Set,
+    /// Its keys say neither or both; that has been noted.
+    Unclear,
+}
+
+pub(super) fn read(table: &Table, surroundings: Surroundings, found: &mut Mistakes) -> ReadTask {
+    let mut table = table.clone();
+    if let Some(name) = table
+        .entries
+        .get(keys::NAME.name)
+        .and_then(|name| name.get_ref().as_str())
+    {
+        table.path = format!("{} {}", table.path, quoted(name));
+    }
+    let name = names::read(&table, found);
+    let task_type = read_type(&table, found);
+    refuse_unknown_keys(&table, task_type, found);
+
+    let kind = task_type.and_then(|it| (it.read)(&table, surroundings.robot, found));
+    let goal = match task_type {
+        Some(task_type) => goal::read(&table, task_type, surroundings, found),
+        None => goal::look_over(&table, found),
+    };
+    let config = || {
+        Some(TaskConfig {
+            name: name.as_ref()?.value.clone(),
+            kind: kind?,
+            goal: goal?,
+        })
+    };
+    ReadTask {
+        config: config(),
+        role: role(&table, task_type),
+        has_gain: table.has(&keys::GAIN_PER_S),
+        waypoints: table
+            .has(&keys::WAYPOINTS_M)
+            .then(|| table.span_of(&keys::WAYPOINTS_M)),
+        name,
+        header: table.header.clone(),
+        path: table.path,
+    }
+}
+
+fn role(table: &Table, task_type: Option<&TaskType>) -> Role {
+    let has_limits = table.has(&keys::MIN) || table.has(&keys::MAX);
+    let equality_keys = [&keys::DESIRED, &keys::TARGET_M, &keys::WAYPOINTS_M];
+    let has_desired = equality_keys.into_iter().any(|key| table.has(key));
+    match task_type {
+        Some(task_type) if task_type.goal == GoalShape::Point => Role::Equality,
+        _ => match (has_desired, has_limits) {
+            (true, false) => Role::Equality,
+            (false, true) => Role::Set,
+            _ => Role::Unclear,
+        },
+    }
+}
+
+fn read_type(table: &Table, found: &mut Mistakes) -> Option<&'static TaskType> {
+    let name = table.text(&keys::TYPE, found).required(table, found)?;
+    let task_type = task_types::by_name(name);
+    if task_type.is_none() {
+        let (_, help) = unknown_name(name, task_types::ALL.iter().map(|known| known.name));
+        let what = format!("unknown task type {}", quoted(name));
+        found.add(
+            table.span_of(&keys::TYPE),
+            table.path_of(&keys::TYPE),
+            what,
+            help,
+        );
+    }
+    task_type
+}
+
+/// A key that another type would have deserves to hear so.
+fn refuse_unknown_keys(table: &Table, task_type: Option<&'static TaskType>, found: &mut Mistakes) {
+    let Some(task_type) = task_type else {
+        // Of a task of unknown type, any key of any type may be meant.
+        let known = task_types::ALL.iter().flat_map(TaskType::all_keys);
+        return table.refuse_unknown_keys(&known, |_| None, found);
+    };
+    let special =
+        |name: &str| {
+            let owner = task_types::ALL
+                .iter()
+                .find(|other| other.all_keys().any(|key| key.name == name))?;
+            let (this, is_point) = (task_type.name, task_type.goal == GoalShape::Point);
+            Some(match name {
+            "min" | "max" if is_point => (
+                format!("a task of type {this:?} cannot be a set: its value is a point"),
+                "take type \"coordinate\" to limit one axis, or \"distance\" to keep away from a \
+                 point"
+                    .to_owned(),
+            ),
+            "desired" if is_point => (
+                format!("a task of type {this:?} has no single `desired` value"),
+                keys::TARGET_M.write_example(),
+            ),
+            "target_m" | "waypoints_m" | "acceptance_m" if !is_point => (
+                format!("a task of type {this:?} has no `{name}`: its value is one number"),
+                "give `desired`, or `min` and/or `max`; points belong to type \"position\""
+                    .to_owned(),
+            ),
+            _ => (
+                format!("`{name}` is a key of type {:?}, not of {this:?}", owner.name),
+                "remove it, or correct the type".to_owned(),
+            ),
+        })
+        };
+    table.refuse_unknown_keys(&task_type.all_keys(), special, found);
+}

@@ -1,0 +1,155 @@
+//! Writing a scenario as a file that reads back to the same scenario.
+
+use std::fmt::Write;
+
+use super::choice::Choice;
+use super::config::{Control, GoalConfig, RobotConfig, Scenario, TaskConfig, TaskKind};
+use super::key::Key;
+use super::keys;
+use super::task_types;
+
+impl Scenario {
+    /// The scenario as the text of a scenario file: every setting stands in it, defaults too.
+    pub fn to_toml(&self) -> String {
+        let mut file = Lines::default();
+        if let Some(title) = &self.title {
+            file.line(keys::TITLE.name, &text(title));
+        }
+        write_robot(&self.robot, &mut file);
+        write_control(&self.control, &mut file);
+        for task in &self.tasks {
+            write_task(task, &mut file);
+        }
+        file.text
+    }
+}
+
+/// The lines of the file written so far.
+#[derive(Default)]
+struct Lines {
+    text: String,
+}
+
+impl Lines {
+    fn header(&mut self, key: &Key) {
+        if !self.text.is_empty() {
+            self.text.push('\n');
+        }
+        self.text.push_str(key.example);
+        self.text.push('\n');
+    }
+
+    fn line(&mut self, name: &str, value: &str) {
+        for part in [name, " = ", value, "\n"] {
+            self.text.push_str(part);
+        }
+    }
+
+    fn number(&mut self, key: &Key, value: f64) {
+        self.line(key.name, &number(value));
+    }
+}
+
+fn write_robot(robot: &RobotConfig, file: &mut Lines) {
+    file.header(&keys::ROBOT);
+    file.line(keys::MODEL.name, &text(&robot.model));
+    file.line(keys::Q0_RAD.name, &vector(&robot.q0_rad));
+}
+
+fn write_control(control: &Control, file: &mut Lines) {
+    file.header(&keys::CONTROL);
+    file.number(&keys::RATE_HZ, control.rate_hz);
+    file.number(&keys::DURATION_S, control.duration_s);
+    file.line(keys::MODE_RULE.name, &text(control.mode_rule.name()));
+    file.line(keys::BORDER.name, &text(control.border.name()));
+    file.line(keys::RECURSION.name, &text(control.recursion.name()));
+    let group = |names: &Vec<String>| list(names.iter().map(|name| text(name)));
+    file.line(
+        keys::EXCLUSIVE.name,
+        &list(control.exclusive.iter().map(group)),
+    );
+}
+
+fn write_task(task: &TaskConfig, file: &mut Lines) {
+    file.header(&keys::TASK);
+    file.line(keys::NAME.name, &text(&task.name));
+    let (type_name, values) = task_types::written(&task.kind);
+    file.line(keys::TYPE.name, &text(type_name));
+    for (name, value) in values {
+        file.line(name, &value);
+    }
+    match &task.goal {
+        GoalConfig::Waypoints {
+            waypoints_m,
+            acceptance_m,
+            gain_per_s,
+        } => {
+            let points = list(waypoints_m.iter().map(|point| vector(point)));
+            file.line(keys::WAYPOINTS_M.name, &points);
+            file.number(&keys::ACCEPTANCE_M, *acceptance_m);
+            file.number(&keys::GAIN_PER_S, *gain_per_s);
+        }
+        GoalConfig::Desired {
+            desired,
+            gain_per_s,
+        } => {
+            match (&task.kind, desired.as_slice()) {
+                (TaskKind::Position, point) => file.line(keys::TARGET_M.name, &vector(point)),
+                (_, [value]) => file.number(&keys::DESIRED, *value),
+                (_, values) => file.line(keys::DESIRED.name, &vector(values)),
+            }
+            file.number(&keys::GAIN_PER_S, *gain_per_s);
+        }
+        GoalConfig::Set {
+            min,
+            max,
+            gain_per_s,
+        } => {
+            for (key, value) in [
+                (&keys::MIN, min),
+                (&keys::MAX, max),
+                (&keys::GAIN_PER_S, gain_per_s),
+            ] {
+                if let Some(value) = value {
+                    file.number(key, *value);
+                }
+            }
+        }
+    }
+}
+
+/// The shortest decimal that reads back to the same number.
+pub(super) fn number(value: f64) -> String {
+    if value.is_nan() {
+        "nan".to_owned()
+    } else {
+        format!("{value:?}")
+    }
+}
+
+pub(super) fn vector(values: &[f64]) -> String {
+    list(values.iter().map(|value| number(*value)))
+}
+
+fn list(members: impl Iterator<Item = String>) -> String {
+    format!("[{}]", members.collect::<Vec<_>>().join(", "))
+}
+
+/// A basic string of TOML.
+pub(super) fn text(content: &str) -> String {
+    let mut quoted = String::from("\"");
+    for c in content.chars() {
+        match c {
+            '"' | '\\' => quoted.extend(['\\', c]),
+            '\n' => quoted.push_str("\\n"),
+            '\t' => quoted.push_str("\\t"),
+            _ if c.is_control() => {
+                // Writing into a string cannot fail.
+                let _ = write!(quoted, "\\u{:04X}", u32::from(c));
+            }
+            _ => quoted.push(c),
+        }
+    }
+    quoted.push('"');
+    quoted
+}
