@@ -343,7 +343,8 @@ fn more_than_256_sets_are_refused() {
 
 #[test]
 fn a_thousand_mistakes_print_a_page() {
-    let text: String = (0..1000).map(|i| format!("[[task]]\nk{i} = 1\n")).collect();
+    let task = |i| format!("[[task]]\nk{i} = 1\n");
+    let text = (0..1000).map(task).collect::<Vec<_>>().concat();
     let errors = Scenario::from_toml(&text).expect_err("no task is right");
     assert!(errors.more() > 900);
     assert!(errors.to_string().len() < 20_000);
