@@ -204,7 +204,10 @@ fn long_and_deep_texts_give_short_messages() {
         "[".repeat(1_000_000),
         format!("a{}", ".a".repeat(1_000_000)),
         "[[task]]\n".repeat(400_000),
-        (0..300_000).map(|i| format!("k{i} = 1\n")).collect(),
+        (0..300_000)
+            .map(|i| format!("k{i} = 1\n"))
+            .collect::<Vec<_>>()
+            .concat(),
         format!("{name} = 1"),
         with_tasks(&format!(
             "[[task]]\nname = \"{name}\"\ntype = \"{name}\"\n{name} = 1\n"
@@ -280,10 +283,10 @@ fn any_scenario() -> impl Strategy<Value = Scenario> {
     let tasks = prop::collection::vec(task, 1..8);
     let title = prop::option::of(any::<String>());
     (tasks, 50.0..1000.0, 1e-3..1e3, title).prop_map(|(tasks, rate, duration, title)| {
-        let mut text = format!("[control]\nrate_hz = {rate:?}\nduration_s = {duration:?}\n");
-        for (i, task) in tasks.iter().enumerate() {
-            text += &format!("[[task]]\nname = \"a/b-{i}\"\n{task}");
-        }
+        let control = format!("[control]\nrate_hz = {rate:?}\nduration_s = {duration:?}\n");
+        let named = |(i, task)| format!("[[task]]\nname = \"a/b-{i}\"\n{task}");
+        let tasks: Vec<_> = tasks.iter().enumerate().map(named).collect();
+        let text = control + &tasks.concat();
         let mut scenario = Scenario::from_toml(&with_tasks(&text)).expect("it is right");
         scenario.title = title;
         scenario

@@ -324,13 +324,13 @@ fn missing_tables_are_reported() {
 #[test]
 fn more_than_256_sets_are_refused() {
     let scenario = |sets: usize| {
-        let mut text = GOOD.to_owned();
-        for i in 3..sets {
-            text += &format!(
-                "[[task]]\nname = \"s{i}\"\ntype = \"joint\"\njoint = 1\nmin = 0\ngain_per_s = 1\n"
-            );
-        }
-        mistakes(&text)
+        let set = |i| {
+            let name = format!("name = \"s{i}\"");
+            format!("[[task]]\n{name}\ntype = \"joint\"\njoint = 1\nmin = 0\ngain_per_s = 1\n")
+        };
+        // Three sets stand there already.
+        let added: Vec<_> = (3..sets).map(set).collect();
+        mistakes(&(GOOD.to_owned() + &added.concat()))
     };
     assert_eq!(scenario(256), []);
     let found = scenario(257);
@@ -343,7 +343,8 @@ fn more_than_256_sets_are_refused() {
 
 #[test]
 fn a_thousand_mistakes_print_a_page() {
-    let text: String = (0..1000).map(|i| format!("[[task]]\nk{i} = 1\n")).collect();
+    let task = |i| format!("[[task]]\nk{i} = 1\n");
+    let text = (0..1000).map(task).collect::<Vec<_>>().concat();
     let errors = Scenario::from_toml(&text).expect_err("no task is right");
     assert!(errors.more() > 900);
     assert!(errors.to_string().len() < 20_000);
