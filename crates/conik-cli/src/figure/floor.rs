@@ -105,7 +105,7 @@ impl Rulers<'_> {
         let length = dx.hypot(dy).max(1e-9);
         let out = (dx / length, dy / length);
         let pixels = (to.0 - from.0).hypot(to.1 - from.1) * step / (high - low);
-        let stride = (if k == 2 { 20.0 } else { 26.0 } / pixels.max(0.1)).ceil();
+        let stride = (if k == 2 { 20.0 } else { 34.0 } / pixels.max(0.1)).ceil();
         self.marks
             .line(from, to, Stroke::solid(palette::FRAME, 1.0));
         let decimals = decimals_of(step);

@@ -33,7 +33,8 @@ pub fn panel(run: &Run, width: f64, height: f64) -> Picture {
 
 /// The scene without a legend.
 pub fn draw(run: &Run, scene: &Scene, width: f64, height: f64) -> Picture {
-    let camera = scene.best_camera();
+    let (azimuth_deg, elevation_deg) = scene.best_view_deg();
+    let camera = Camera::at(azimuth_deg, elevation_deg);
     let view = View::fitting(
         camera,
         &outline(scene, &camera),
@@ -63,15 +64,15 @@ pub fn draw(run: &Run, scene: &Scene, width: f64, height: f64) -> Picture {
         spheres.iter().position(hides).unwrap_or(spheres.len())
     };
     let strokes = layered_strokes(run, scene, &view, &layer);
-    if scene.shows_base {
-        floor::triad(scene, &view, &mut marks, &mut placement);
-    }
     for depth in 0..=spheres.len() {
         for (_, mode, points) in strokes.iter().filter(|stroke| stroke.0 == depth) {
             let mode = &run.modes()[*mode];
             let width = if mode.active.is_empty() { 1.9 } else { 3.4 };
             marks.polyline(points, Stroke::solid(mode.colour, width));
             placement.avoid_curve(points);
+        }
+        if scene.shows_base && layer([0.0; 3]) == depth {
+            floor::triad(scene, &view, &mut marks, &mut placement);
         }
         for target in &scene.targets {
             if layer(target.point) == depth {

@@ -123,23 +123,40 @@ impl Scene {
     }
 
     /// The view in which most of the path is seen: the longest on paper, spheres hiding none of it.
-    pub fn best_camera(&self) -> Camera {
+    /// Azimuth and elevation [degrees] as of [`Camera::at`].
+    pub fn best_view_deg(&self) -> (f64, f64) {
         // Away from right angles to the axes, where an axis would be seen as a point.
         let azimuths = [30.0, 60.0, 120.0, 150.0, -150.0, -120.0, -60.0, -30.0];
         // From higher up the floor is more of a map and heights are lost: only for more path.
-        let elevations = [28.0, 38.0];
-        let mut best = (f64::NEG_INFINITY, Camera::at(azimuths[0], elevations[0]));
-        for camera in elevations
-            .into_iter()
-            .flat_map(|e| azimuths.map(|a| Camera::at(a, e)))
-        {
-            let seen = self.seen_length(&camera);
+        let elevations = [28.0, 38.0, 48.0];
+        let mut best = (f64::NEG_INFINITY, (azimuths[0], elevations[0]));
+        let views = elevations.map(|elevation| azimuths.map(|azimuth| (azimuth, elevation)));
+        for view in views.into_iter().flatten() {
+            let camera = Camera::at(view.0, view.1);
+            // Axes of the base across the path or an obstacle make both hard to read.
+            let clear = if self.base_is_aside(&camera) {
+                1.0
+            } else {
+                0.75
+            };
+            let seen = clear * self.seen_length(&camera);
             // A few hundredths of the path more are no reason to look from elsewhere.
             if seen > 1.03 * best.0.max(0.0) + 1e-9 {
-                best = (seen, camera);
+                best = (seen, view);
             }
         }
         best.1
+    }
+
+    /// Whether the base is in the background, and no obstacle in front of it.
+    fn base_is_aside(&self, camera: &Camera) -> bool {
+        let middle = [0, 1, 2].map(|k| f64::midpoint(self.low[k], self.high[k]));
+        let clear = self.obstacles().all(|sphere| {
+            let (right, up) = camera.project(sphere.centre);
+            right.hypot(up) > 1.1 * sphere.radius
+        });
+        !self.shows_base
+            || (clear && camera.nearness(middle) > camera.nearness([0.0, 0.0, middle[2]]))
     }
 
     fn seen_length(&self, camera: &Camera) -> f64 {
