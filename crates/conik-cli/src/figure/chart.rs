@@ -83,7 +83,7 @@ impl Chart {
         let (left, top) = self.corner;
         let (right, bottom) = (left + self.size.0, top + self.size.1);
         let marks = &mut self.marks;
-        let title = lettering::shorten(&self.title, TITLE, self.size.0);
+        let title = lettering::shorten(&self.title, lettering::BOLD * TITLE, self.size.0);
         marks.text(
             (left, top - 7.0),
             &title,
@@ -209,9 +209,9 @@ impl Chart {
 
     /// Height of a mark for the time at `x`: above the frame, or within it below the title.
     pub fn free_height_above(&self, x: f64) -> f64 {
-        let title = 1.1 * lettering::width(&self.title, TITLE).min(self.size.0);
+        let title = lettering::BOLD * lettering::width(&self.title, TITLE);
         let top = self.corner.1;
-        if x > self.corner.0 + title + 14.0 {
+        if x > self.corner.0 + title.min(self.size.0) + 14.0 {
             top - 9.0
         } else {
             top + 11.0

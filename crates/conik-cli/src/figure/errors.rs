@@ -23,8 +23,11 @@ pub fn tasks(run: &Run) -> Vec<&TaskConfig> {
 pub fn panel(run: &Run, width: f64) -> Picture {
     let tasks = tasks(run);
     let shape = grid::Shape::of(tasks.len(), width);
-    let charts = tasks.into_iter().map(|task| chart(run, task, shape.cell()));
-    grid::arrange(charts.collect(), shape, "equality task")
+    let charts: Vec<Picture> = tasks
+        .into_iter()
+        .map(|task| chart(run, task, shape.cell()))
+        .collect();
+    grid::arrange(&charts, shape, "equality task")
 }
 
 /// The chart of one equality task.

@@ -41,7 +41,7 @@ pub fn picture(run: &Run) -> Picture {
 }
 
 fn heading(run: &Run, marks: &mut Marks) -> f64 {
-    let title = lettering::shorten(run.title(), 15.0, WIDTH - 40.0);
+    let title = lettering::shorten(run.title(), lettering::BOLD * 15.0, WIDTH - 40.0);
     marks.text(
         (14.0, 24.0),
         &title,
@@ -51,7 +51,7 @@ fn heading(run: &Run, marks: &mut Marks) -> f64 {
         return 36.0;
     };
     let word = format!("{word} at {}", lettering::seconds(run.summary().ended_at_s));
-    let word = lettering::shorten(&word, 13.0, WIDTH - 40.0);
+    let word = lettering::shorten(&word, lettering::BOLD * 13.0, WIDTH - 40.0);
     marks.text(
         (14.0, 44.0),
         &word,

@@ -193,6 +193,7 @@ pub fn triad(scene: &Scene, view: &View, marks: &mut Marks, placement: &mut Plac
     for (tip, name) in axes(scene).into_iter().zip(["x", "y", "z"]) {
         let tip = view.place(tip);
         marks.line(origin, tip, Stroke::solid(palette::INK, 1.4));
+        placement.avoid_curve(&[origin, tip]);
         let (dx, dy) = (tip.0 - origin.0, tip.1 - origin.1);
         let length = dx.hypot(dy);
         if length < 4.0 {
@@ -210,13 +211,17 @@ pub fn triad(scene: &Scene, view: &View, marks: &mut Marks, placement: &mut Plac
         placement.avoid(Area::of_text(at, name, &style));
         marks.text(at, name, style.rimmed());
     }
-    let style = Lettering::new(LABEL, palette::INK).anchored("middle");
+    let style = Lettering::new(LABEL, palette::INK);
+    let (x, y) = origin;
     let candidates = [
-        ((origin.0, origin.1 + 15.0), style),
-        ((origin.0 - 20.0, origin.1 + 12.0), style),
-        ((origin.0 + 20.0, origin.1 + 12.0), style),
+        ((x + 6.0, y - 7.0), style),
+        ((x - 6.0, y - 7.0), style.anchored("end")),
+        ((x, y + 16.0), style.anchored("middle")),
+        ((x + 8.0, y + 14.0), style),
+        ((x - 8.0, y + 14.0), style.anchored("end")),
     ];
     if let Some(best) = placement.choose(&candidates, "base") {
-        marks.text(candidates[best].0, "base", style.rimmed());
+        let (at, style) = candidates[best];
+        marks.text(at, "base", style.rimmed());
     }
 }

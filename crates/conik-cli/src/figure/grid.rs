@@ -35,7 +35,7 @@ impl Shape {
 }
 
 /// Puts the charts in rows. Without any, the picture says that there is no `kind`.
-pub fn arrange(charts: Vec<Picture>, shape: Shape, kind: &str) -> Picture {
+pub fn arrange(charts: &[Picture], shape: Shape, kind: &str) -> Picture {
     if charts.is_empty() {
         return nothing(shape.width, kind);
     }

@@ -8,6 +8,9 @@ pub fn width(text: &str, size: f64) -> f64 {
     size * text.chars().map(em).sum::<f64>()
 }
 
+/// How much wider than plain text bold text is.
+pub const BOLD: f64 = 1.1;
+
 fn em(character: char) -> f64 {
     match character {
         'i' | 'j' | 'l' | '\'' | '|' => 0.23,

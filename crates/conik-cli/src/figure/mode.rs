@@ -2,9 +2,10 @@
 
 use super::axis::Axis;
 use super::chart::{Chart, Layout, TICK};
+use super::decimate::decimate;
 use super::lettering;
 use super::run::Run;
-use super::svg::{Picture, Stroke};
+use super::svg::{Picture, Point, Stroke};
 
 /// Height of a row for one mode [px].
 const ROW: f64 = 26.0;
@@ -51,21 +52,17 @@ pub fn chart(run: &Run, layout: Layout) -> Picture {
         }
     }
     let mut chart = Chart::new(layout, "active mode", "", run, Axis::listing(labels));
-    let spans = run.drawable_spans();
-    let mut stairs = Vec::with_capacity(2 * spans.len());
-    for span in &spans {
-        let row = rows[span.mode];
-        stairs.push(chart.at(span.from_s, row));
-        stairs.push(chart.at(span.to_s, row));
-    }
+    let stairs = stairs(&chart, run, &rows);
     chart.placement.avoid_curve(&stairs);
     chart.marks.polyline(&stairs, Stroke::solid("#8c959f", 1.0));
-    for (span, ends) in spans.iter().zip(stairs.chunks_exact(2)) {
+    for span in run.drawable_spans() {
+        let from = chart.at(span.from_s, rows[span.mode]);
+        let to = chart.at(span.to_s, rows[span.mode]);
+        let to = (to.0.max(from.0 + 1.0), to.1);
         let colour = run.modes()[span.mode].colour;
-        let to = (ends[1].0.max(ends[0].0 + 1.0), ends[1].1);
         chart
             .marks
-            .polyline(&[ends[0], to], Stroke::solid(colour, 3.4));
+            .polyline(&[from, to], Stroke::solid(colour, 3.4));
     }
     chart.early_end(run);
     let title = format!(
@@ -74,6 +71,23 @@ pub fn chart(run: &Run, layout: Layout) -> Picture {
         run.spans().len().saturating_sub(1)
     );
     chart.finish(&title)
+}
+
+/// The line that joins the modes. Of a flickering run, so many of its steps as can be told apart.
+fn stairs(chart: &Chart, run: &Run, rows: &[f64]) -> Vec<Point> {
+    if run.flickers() {
+        let of_tick: Vec<f64> = run
+            .log()
+            .active()
+            .iter()
+            .map(|&id| rows[id as usize])
+            .collect();
+        return chart.places(&decimate(run.log().time_s(), &of_tick, chart.resolution()));
+    }
+    run.spans()
+        .iter()
+        .flat_map(|span| [span.from_s, span.to_s].map(|t_s| chart.at(t_s, rows[span.mode])))
+        .collect()
 }
 
 /// For each mode of the run its row, counted from the bottom: by number, as far as they have one.

@@ -15,6 +15,9 @@ use super::svg::{Lettering, Marks, Picture, Point, Stroke};
 /// Size of labels [px].
 pub const LABEL: f64 = 11.0;
 
+/// More obstacles than this are drawn without their names.
+const MOST_NAMED: usize = 16;
+
 /// Light from the upper left, on all spheres the same.
 const SHADE: &str = "<defs><radialGradient id=\"sphere\" cx=\"0.5\" cy=\"0.5\" r=\"0.5\" fx=\"0.33\" fy=\"0.28\">\
 <stop offset=\"0\" stop-color=\"#f4f7fa\" stop-opacity=\"0.78\"/>\
@@ -211,7 +214,13 @@ fn label_all(run: &Run, scene: &Scene, view: &View, marks: &mut Marks, placement
             placement,
         );
     }
-    for sphere in &scene.spheres {
+    // So many names would hide what they name.
+    let named = if scene.spheres.len() <= MOST_NAMED {
+        &scene.spheres[..]
+    } else {
+        &[]
+    };
+    for sphere in named {
         let name = lettering::shorten(&sphere.name, LABEL, 130.0);
         let (x, y) = view.place(sphere.centre);
         let radius = view.scale * sphere.radius;

@@ -65,7 +65,7 @@ impl Placement {
             let (from, to) = (pair[0], pair[1]);
             let length = (to.0 - from.0).hypot(to.1 - from.1);
             // NaN and endless lines are no obstacle.
-            if !(length < 1e5) {
+            if length.is_nan() || length > 1e5 {
                 continue;
             }
             let mut along = 0.0;

@@ -131,47 +131,37 @@ impl Run {
         self.log.column(&format!("{task}_error"))
     }
 
-    /// When the set of that name was active, and in which mode; so coarse where modes flicker that
-    /// a picture can show it.
+    /// When the set of that name was active, and in which mode; as [`Run::drawable_spans`].
     pub fn active_spans(&self, set: &str) -> Vec<Span> {
-        let holds: Vec<bool> = self
-            .modes
-            .iter()
-            .map(|mode| mode.active.iter().any(|name| name == set))
-            .collect();
-        self.drawable_spans()
-            .into_iter()
-            .filter(|span| holds[span.mode])
-            .collect()
+        let holds = |mode: &Mode| mode.active.iter().any(|name| name == set);
+        let mut spans = self.drawable_spans();
+        spans.retain(|span| holds(&self.modes[span.mode]));
+        spans
     }
 
-    /// [`Run::spans`], or of each short while of a flickering run the mode that lasted longest.
+    /// Whether the mode changed too often for a picture to show each change.
+    pub fn flickers(&self) -> bool {
+        self.spans.len() > MOST_SPANS
+    }
+
+    /// [`Run::spans`]; of a flickering run, for each mode the short whiles in which it occurred,
+    /// which then overlap those of other modes.
     pub fn drawable_spans(&self) -> Vec<Span> {
-        if self.spans.len() <= MOST_SPANS {
+        if !self.flickers() {
             return self.spans.clone();
         }
         let (begin, end) = self.period_s();
-        let mut coarse: Vec<Span> = Vec::new();
-        let mut next = 0;
-        for bucket in 0..MOST_SPANS {
-            let border = |nth: usize| begin + (end - begin) * nth as f64 / MOST_SPANS as f64;
-            let (from_s, to_s) = (border(bucket), border(bucket + 1));
-            let mut lasted = vec![0.0; self.modes.len()];
-            while let Some(span) = self.spans.get(next) {
-                lasted[span.mode] += (span.to_s.min(to_s) - span.from_s.max(from_s)).max(0.0);
-                if span.to_s > to_s {
-                    break;
-                }
-                next += 1;
-            }
-            let longest = (0..lasted.len()).max_by(|&a, &b| lasted[a].total_cmp(&lasted[b]));
-            let mode = longest.unwrap_or(0);
-            match coarse.last_mut() {
-                Some(last) if last.mode == mode => last.to_s = to_s,
-                _ => coarse.push(Span { from_s, to_s, mode }),
+        let while_s = (end - begin) / MOST_SPANS as f64;
+        // For each mode its whiles so far; a span that begins within or right after the last of
+        // them prolongs it.
+        let mut whiles: Vec<Vec<Span>> = vec![Vec::new(); self.modes.len()];
+        for &span in &self.spans {
+            match whiles[span.mode].last_mut() {
+                Some(last) if span.from_s - last.to_s < while_s => last.to_s = span.to_s,
+                _ => whiles[span.mode].push(span),
             }
         }
-        coarse
+        whiles.concat()
     }
 
     /// A word on how the run ended, if it ended before its time.

@@ -23,8 +23,11 @@ pub fn tasks(run: &Run) -> Vec<&TaskConfig> {
 pub fn panel(run: &Run, width: f64) -> Picture {
     let sets = tasks(run);
     let shape = grid::Shape::of(sets.len(), width);
-    let charts = sets.into_iter().map(|task| chart(run, task, shape.cell()));
-    grid::arrange(charts.collect(), shape, "set-based task")
+    let charts: Vec<Picture> = sets
+        .into_iter()
+        .map(|task| chart(run, task, shape.cell()))
+        .collect();
+    grid::arrange(&charts, shape, "set-based task")
 }
 
 /// The chart of one set-based task.

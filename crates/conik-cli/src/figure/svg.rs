@@ -130,16 +130,19 @@ impl<'a> Lettering<'a> {
     }
 
     /// The same, anchored elsewhere.
+    #[must_use]
     pub fn anchored(self, anchor: &'static str) -> Self {
         Self { anchor, ..self }
     }
 
     /// The same in bold.
+    #[must_use]
     pub fn bold(self) -> Self {
         Self { bold: true, ..self }
     }
 
     /// The same with a white rim.
+    #[must_use]
     pub fn rimmed(self) -> Self {
         Self { rim: true, ..self }
     }

@@ -1,4 +1,8 @@
 //! The tables of the page: tasks, mode changes, tracking and step time.
+//!
+//! Writing to a string cannot fail, so what `writeln!` returns is dropped.
+
+use std::fmt::Write;
 
 use conik_sim::scenario::{GoalConfig, TaskConfig, TaskKind};
 use conik_sim::summary::{Summary, TaskSummary};
@@ -22,10 +26,11 @@ pub fn tasks(run: &Run) -> String {
             (GoalConfig::Set { .. }, None) => "never".to_owned(),
             (_, entered) => time(entered),
         };
-        body.push_str(&format!(
+        let _ = writeln!(
+            body,
             "<tr><td class=\"number\">{}</td><th scope=\"row\">{}</th><td>{}</td><td>{}</td>\
              <td class=\"number\">{}</td><td class=\"number\">{entered}</td>\
-             <td class=\"number\">{}</td><td class=\"number\">{}</td></tr>\n",
+             <td class=\"number\">{}</td><td class=\"number\">{}</td></tr>",
             nth + 1,
             Escaped(&task.name),
             Escaped(&kind(run, task)),
@@ -33,7 +38,7 @@ pub fn tasks(run: &Run) -> String {
             units::optional(result.worst_violation, unit),
             time(result.active_s),
             units::optional(result.final_error, unit),
-        ));
+        );
     }
     section(
         "Tasks, the most important first",
@@ -109,10 +114,11 @@ pub fn mode_changes(run: &Run) -> String {
         } else {
             Escaped(&change.active.join(" + ")).to_string()
         };
-        body.push_str(&format!(
-            "<tr><td class=\"number\">{}</td><td class=\"number\">{mode}</td><td>{active}</td></tr>\n",
+        let _ = writeln!(
+            body,
+            "<tr><td class=\"number\">{}</td><td class=\"number\">{mode}</td><td>{active}</td></tr>",
             seconds(change.t_s)
-        ));
+        );
     }
     let left_out = changes.len().saturating_sub(MOST_CHANGES);
     let note = if left_out > 0 {
@@ -149,12 +155,13 @@ fn tracking(run: &Run, summary: &Summary) -> String {
     };
     let mut body = String::new();
     for (nth, (max, rms)) in tracking.max_rad.iter().zip(&tracking.rms_rad).enumerate() {
-        body.push_str(&format!(
-            "<tr><th scope=\"row\">{}</th><td class=\"number\">{}</td><td class=\"number\">{}</td></tr>\n",
+        let _ = writeln!(
+            body,
+            "<tr><th scope=\"row\">{}</th><td class=\"number\">{}</td><td class=\"number\">{}</td></tr>",
             Escaped(&quantity::joint_name(run, nth + 1)),
             units::quantity(*max, "rad"),
             units::quantity(*rms, "rad"),
-        ));
+        );
     }
     let columns = [
         ("Joint", false),
@@ -174,13 +181,11 @@ fn section(title: &str, columns: &[(&str, bool)], body: &str, note: &str) -> Str
 }
 
 fn table(columns: &[(&str, bool)], body: &str) -> String {
-    let head: String = columns
-        .iter()
-        .map(|&(name, is_number)| {
-            let class = if is_number { " class=\"number\"" } else { "" };
-            format!("<th scope=\"col\"{class}>{name}</th>")
-        })
-        .collect();
+    let mut head = String::new();
+    for &(name, is_number) in columns {
+        let class = if is_number { " class=\"number\"" } else { "" };
+        let _ = write!(head, "<th scope=\"col\"{class}>{name}</th>");
+    }
     format!(
         "<div class=\"table\"><table>\n<thead><tr>{head}</tr></thead>\n<tbody>\n{body}</tbody>\n\
          </table></div>\n"

@@ -16,10 +16,10 @@ pub fn banner(run: &Run) -> String {
         Outcome::Completed => "good",
         _ => "bad",
     };
-    let mut notes = String::new();
-    if let Outcome::Fault { detail, .. } = &summary.outcome {
-        notes.push_str(&format!("<p>{}</p>\n", Escaped(detail)));
-    }
+    let mut notes = match &summary.outcome {
+        Outcome::Fault { detail, .. } => format!("<p>{}</p>\n", Escaped(detail)),
+        _ => String::new(),
+    };
     if run.log().is_truncated() {
         notes.push_str("<p>The last line of the log was cut off and is left out.</p>\n");
     }
