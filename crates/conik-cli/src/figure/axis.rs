@@ -191,7 +191,7 @@ mod tests {
         );
         assert_eq!(
             labels(&Axis::spanning(-0.11, 0.12, 4)),
-            ["−0.1", "0.0", "0.1"].map(|l| if l == "0.0" { "0" } else { l })
+            ["−0.1", "0", "0.1"]
         );
         assert_eq!(
             labels(&Axis::decades(1e-6, 1.0, 4)),

@@ -1,12 +1,13 @@
 //! A chart over time: frame, axes, curves, and the stretches of time in which something was so.
 
 use super::axis::Axis;
-use super::decimate::decimate;
+use super::curve::{decimate, within};
+use super::ink::{Lettering, Stroke};
 use super::lettering;
 use super::palette;
 use super::placement::{Area, Placement};
 use super::run::{Run, Span};
-use super::svg::{Lettering, Marks, Picture, Point, Stroke};
+use super::svg::{Marks, Picture, Point};
 
 /// Size of the numbers at the ticks [px].
 pub const TICK: f64 = 10.5;
@@ -257,44 +258,5 @@ impl Chart {
             title: description.to_owned(),
             marks: self.marks,
         }
-    }
-}
-
-/// The part of a curve between two times, cut where it meets them.
-fn within(points: &[Point], from: f64, to: f64) -> Vec<Point> {
-    let mut part = Vec::new();
-    for pair in points.windows(2) {
-        let (a, b) = (pair[0], pair[1]);
-        if b.0 < from || a.0 > to {
-            continue;
-        }
-        let cut = |t: f64| (t, a.1 + (b.1 - a.1) * (t - a.0) / (b.0 - a.0));
-        if a.0 < from && from < b.0 {
-            part.push(cut(from));
-        } else if a.0 >= from {
-            part.push(a);
-        }
-        if a.0 < to && to < b.0 {
-            part.push(cut(to));
-        }
-    }
-    part.extend(points.last().filter(|last| (from..=to).contains(&last.0)));
-    part
-}
-
-#[cfg(test)]
-mod tests {
-    use super::within;
-
-    #[test]
-    fn a_part_of_a_curve_ends_where_it_is_cut() {
-        let curve = [(0.0, 0.0), (2.0, 2.0), (4.0, 0.0)];
-        assert_eq!(
-            within(&curve, 1.0, 3.0),
-            [(1.0, 1.0), (2.0, 2.0), (3.0, 1.0)]
-        );
-        assert_eq!(within(&curve, 0.5, 1.5), [(0.5, 0.5), (1.5, 1.5)]);
-        assert_eq!(within(&curve, 0.0, 4.0), curve);
-        assert_eq!(within(&curve, 5.0, 6.0), []);
     }
 }

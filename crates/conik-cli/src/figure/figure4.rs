@@ -4,10 +4,11 @@
 use conik_sim::scenario::TaskConfig;
 
 use super::chart::{Layout, TITLE};
+use super::ink::Lettering;
 use super::palette;
 use super::quantity;
 use super::run::{Run, is_set};
-use super::svg::{Lettering, Marks, Picture};
+use super::svg::{Marks, Picture};
 use super::{errors, lettering, mode, path, sets};
 
 const WIDTH: f64 = 920.0;

@@ -3,12 +3,13 @@
 
 use super::axis::decimals_of;
 use super::camera::{Camera, Vector, View};
+use super::ink::{Lettering, Stroke};
 use super::lettering;
 use super::palette;
 use super::path::LABEL;
 use super::placement::{Area, Placement};
 use super::scene::Scene;
-use super::svg::{Lettering, Marks, Point, Stroke};
+use super::svg::{Marks, Point};
 
 const TICK: f64 = 10.0;
 const SHADOW: &str = "#8e99a6";

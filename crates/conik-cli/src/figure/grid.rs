@@ -1,8 +1,9 @@
 //! Many charts in one picture, side by side and below each other.
 
 use super::chart::{LABEL, Layout};
+use super::ink::Lettering;
 use super::palette;
-use super::svg::{Lettering, Marks, Picture};
+use super::svg::{Marks, Picture};
 
 /// How charts are arranged in a picture.
 #[derive(Clone, Copy, Debug)]

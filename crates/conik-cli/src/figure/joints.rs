@@ -2,12 +2,13 @@
 
 use super::axis::{Axis, range};
 use super::chart::{Chart, LABEL, Layout};
-use super::decimate::decimate;
+use super::curve::decimate;
+use super::ink::{Lettering, Stroke};
 use super::lettering;
 use super::palette;
 use super::quantity;
 use super::run::Run;
-use super::svg::{Lettering, Marks, Picture, Stroke};
+use super::svg::{Marks, Picture};
 
 /// Room for a line of the legend [px].
 const LEGEND_LINE: f64 = 18.0;

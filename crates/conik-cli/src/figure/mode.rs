@@ -2,10 +2,11 @@
 
 use super::axis::Axis;
 use super::chart::{Chart, Layout, TICK};
-use super::decimate::decimate;
+use super::curve::decimate;
+use super::ink::Stroke;
 use super::lettering;
 use super::run::Run;
-use super::svg::{Picture, Point, Stroke};
+use super::svg::{Picture, Point};
 
 /// Height of a row for one mode [px].
 const ROW: f64 = 26.0;

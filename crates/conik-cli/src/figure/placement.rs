@@ -1,7 +1,8 @@
 //! Puts labels where they cover neither a curve nor each other.
 
+use super::ink::Lettering;
 use super::lettering;
-use super::svg::{Lettering, Point};
+use super::svg::Point;
 
 /// A rectangle on the picture [px].
 #[derive(Clone, Copy, Debug, PartialEq)]

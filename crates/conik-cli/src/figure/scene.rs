@@ -4,7 +4,7 @@ use conik_sim::scenario::{GoalConfig, TaskKind};
 
 use super::axis::nice_step;
 use super::camera::{Camera, Vector, difference, dot};
-use super::decimate::decimate_in_space;
+use super::curve::decimate_in_space;
 use super::run::Run;
 
 /// Everything drawn in three dimensions.

@@ -6,11 +6,12 @@ use conik_sim::scenario::{GoalConfig, TaskConfig};
 use super::axis::{Axis, range};
 use super::chart::{Chart, LABEL, Layout};
 use super::grid;
+use super::ink::{Lettering, Stroke};
 use super::lettering;
 use super::palette;
 use super::quantity;
 use super::run::{Run, is_set};
-use super::svg::{Lettering, Picture, Stroke};
+use super::svg::Picture;
 
 /// The set-based tasks in the paper's order: as in the list, the field of view last.
 pub fn tasks(run: &Run) -> Vec<&TaskConfig> {

@@ -4,7 +4,10 @@
 //! pixel: a slow curve becomes a staircase as soon as the picture is enlarged or printed, and the
 //! path in three dimensions, with spheres that shade, is not a chart. The marks needed are few.
 
-use std::fmt::{self, Display, Write};
+use std::fmt::{self, Write};
+
+use super::ink::{Lettering, Stroke};
+use super::markup::{Decimal, Escaped, Opacity};
 
 /// A place in a picture [px], x to the right and y down.
 pub type Point = (f64, f64);
@@ -59,94 +62,6 @@ impl Picture {
 /// Marks, the later ones over the earlier ones.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Marks(String);
-
-/// How a line is drawn.
-#[derive(Clone, Copy, Debug)]
-pub struct Stroke<'a> {
-    /// Colour.
-    pub colour: &'a str,
-    /// Width [px].
-    pub width: f64,
-    /// Lengths of dashes and gaps [px]; empty for a continuous line.
-    pub dashes: &'a str,
-}
-
-impl<'a> Stroke<'a> {
-    /// A continuous line.
-    pub fn solid(colour: &'a str, width: f64) -> Self {
-        Self {
-            colour,
-            width,
-            dashes: "",
-        }
-    }
-
-    /// A dashed line.
-    pub fn dashed(colour: &'a str, width: f64, dashes: &'a str) -> Self {
-        Self {
-            colour,
-            width,
-            dashes,
-        }
-    }
-}
-
-impl Display for Stroke<'_> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let width = Decimal(self.width);
-        write!(f, "stroke=\"{}\" stroke-width=\"{width}\"", self.colour)?;
-        if !self.dashes.is_empty() {
-            write!(f, " stroke-dasharray=\"{}\"", self.dashes)?;
-        }
-        Ok(())
-    }
-}
-
-/// How a text is set.
-#[derive(Clone, Copy, Debug)]
-pub struct Lettering<'a> {
-    /// Size [px].
-    pub size: f64,
-    /// Colour.
-    pub colour: &'a str,
-    /// `start`, `middle` or `end`: which part of the text stands at the place.
-    pub anchor: &'static str,
-    /// Whether it is bold.
-    pub bold: bool,
-    /// Whether a white rim keeps it readable over lines.
-    pub rim: bool,
-}
-
-impl<'a> Lettering<'a> {
-    /// Plain text that starts at its place.
-    pub fn new(size: f64, colour: &'a str) -> Self {
-        Self {
-            size,
-            colour,
-            anchor: "start",
-            bold: false,
-            rim: false,
-        }
-    }
-
-    /// The same, anchored elsewhere.
-    #[must_use]
-    pub fn anchored(self, anchor: &'static str) -> Self {
-        Self { anchor, ..self }
-    }
-
-    /// The same in bold.
-    #[must_use]
-    pub fn bold(self) -> Self {
-        Self { bold: true, ..self }
-    }
-
-    /// The same with a white rim.
-    #[must_use]
-    pub fn rimmed(self) -> Self {
-        Self { rim: true, ..self }
-    }
-}
 
 impl Marks {
     /// A straight line.
@@ -276,51 +191,5 @@ impl Marks {
     fn put(&mut self, mark: fmt::Arguments) {
         // Writing to a string cannot fail.
         let _ = writeln!(self.0, "{mark}");
-    }
-}
-
-/// Text in which nothing is markup.
-pub struct Escaped<'a>(pub &'a str);
-
-impl Display for Escaped<'_> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        for character in self.0.chars() {
-            match character {
-                '&' => f.write_str("&amp;")?,
-                '<' => f.write_str("&lt;")?,
-                '>' => f.write_str("&gt;")?,
-                '"' => f.write_str("&quot;")?,
-                '\'' => f.write_str("&#39;")?,
-                // Other control characters are not allowed in XML, not even escaped.
-                '\n' | '\t' => f.write_char(character)?,
-                control if control.is_control() => f.write_char('\u{fffd}')?,
-                other => f.write_char(other)?,
-            }
-        }
-        Ok(())
-    }
-}
-
-/// A coordinate to a hundredth of a pixel, without trailing zeros.
-struct Decimal(f64);
-
-impl Display for Decimal {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        // A place that is not a number must not make the whole file unreadable.
-        let value = if self.0.is_finite() { self.0 } else { 0.0 };
-        let text = format!("{value:.2}");
-        let text = text.trim_end_matches('0').trim_end_matches('.');
-        f.write_str(if text == "-0" { "0" } else { text })
-    }
-}
-
-struct Opacity(f64);
-
-impl Display for Opacity {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        if self.0 < 1.0 {
-            write!(f, " fill-opacity=\"{}\"", Decimal(self.0))?;
-        }
-        Ok(())
     }
 }

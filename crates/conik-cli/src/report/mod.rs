@@ -9,7 +9,8 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use crate::figure::chart::Layout;
-use crate::figure::svg::{Escaped, Picture};
+use crate::figure::markup::Escaped;
+use crate::figure::svg::Picture;
 use crate::figure::{Run, RunError, errors, joints, mode, path, sets};
 
 mod properties;

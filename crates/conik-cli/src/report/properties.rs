@@ -6,7 +6,7 @@ use conik_sim::summary::Property;
 
 use super::units;
 use crate::figure::lettering::seconds;
-use crate::figure::svg::Escaped;
+use crate::figure::markup::Escaped;
 use crate::figure::{Run, quantity};
 
 /// How far a property binds.

@@ -6,7 +6,9 @@
   const svg = figure && figure.querySelector("svg");
   if (!svg || !data) return;
   const scene = JSON.parse(data.textContent);
+  if (!scene.path.length) return;
   const still = svg.innerHTML;
+  const legend = svg.lastElementChild.outerHTML;
   const [width, height] = scene.size;
   let [azimuth, elevation] = scene.view;
   let right, up, toward, scale, origin;
@@ -93,8 +95,11 @@
       const [x, y] = place(p);
       layers[k] += `<circle cx="${x}" cy="${y}" r="${r * scale}" fill="url(#sphere)" stroke="#5f6b78"/>`;
     });
+    const start = place(scene.path[0][2][0]);
+    layers[spheres.length] += `<circle cx="${start[0]}" cy="${start[1]}" r="4" fill="#fff" ` +
+      `stroke="#1f2328" stroke-width="1.8"/>` + text(scene.path[0][2][0], "start", -12);
     const defs = still.slice(still.indexOf("<defs>"), still.indexOf("</defs>") + 7);
-    svg.innerHTML = defs + floor() + layers.join("");
+    svg.innerHTML = defs + floor() + layers.join("") + legend;
   }
 
   figure.classList.add("turnable");

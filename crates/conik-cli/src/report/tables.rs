@@ -9,7 +9,7 @@ use conik_sim::summary::{Summary, TaskSummary};
 
 use super::units;
 use crate::figure::lettering::{number, seconds};
-use crate::figure::svg::Escaped;
+use crate::figure::markup::Escaped;
 use crate::figure::{Run, quantity};
 
 /// More mode changes than this are not listed: the log has them.

@@ -4,7 +4,7 @@ use conik_sim::summary::Outcome;
 
 use crate::figure::Run;
 use crate::figure::lettering::{number, seconds};
-use crate::figure::svg::Escaped;
+use crate::figure::markup::Escaped;
 
 /// More arrivals than this are counted, not listed.
 const MOST_LISTED: usize = 8;

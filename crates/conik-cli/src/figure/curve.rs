@@ -1,4 +1,5 @@
-//! Fewer points, the same curve: each stretch of a long log keeps its least and greatest value.
+//! What is done to a curve before it is drawn: a long one keeps of each stretch the least and the
+//! greatest value only, and parts are cut out of it.
 
 use super::svg::Point;
 
@@ -56,6 +57,28 @@ pub fn decimate_in_space(coordinates: [&[f64]; 3], buckets: usize) -> Vec<usize>
     kept
 }
 
+/// The part of a curve between two times, cut where it meets them.
+pub fn within(points: &[Point], from: f64, to: f64) -> Vec<Point> {
+    let mut part = Vec::new();
+    for pair in points.windows(2) {
+        let (a, b) = (pair[0], pair[1]);
+        if b.0 < from || a.0 > to {
+            continue;
+        }
+        let cut = |t: f64| (t, a.1 + (b.1 - a.1) * (t - a.0) / (b.0 - a.0));
+        if a.0 < from && from < b.0 {
+            part.push(cut(from));
+        } else if a.0 >= from {
+            part.push(a);
+        }
+        if a.0 < to && to < b.0 {
+            part.push(cut(to));
+        }
+    }
+    part.extend(points.last().filter(|last| (from..=to).contains(&last.0)));
+    part
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -102,5 +125,17 @@ mod tests {
         let kept = decimate_in_space([&x, &line, &line], 200);
         assert!(kept.len() <= 1202 && kept.contains(&12_345));
         assert!(kept.contains(&0) && kept.contains(&(rows - 1)));
+    }
+
+    #[test]
+    fn a_part_of_a_curve_ends_where_it_is_cut() {
+        let curve = [(0.0, 0.0), (2.0, 2.0), (4.0, 0.0)];
+        assert_eq!(
+            within(&curve, 1.0, 3.0),
+            [(1.0, 1.0), (2.0, 2.0), (3.0, 1.0)]
+        );
+        assert_eq!(within(&curve, 0.5, 1.5), [(0.5, 0.5), (1.5, 1.5)]);
+        assert_eq!(within(&curve, 0.0, 4.0), curve);
+        assert_eq!(within(&curve, 5.0, 6.0), []);
     }
 }
