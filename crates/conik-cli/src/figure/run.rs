@@ -1,0 +1,271 @@
+//! A finished run as the figures see it: its log, its summary, and when which mode was in force.
+
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+
+use conik_sim::log::read::{Log, LogError};
+use conik_sim::scenario::{GoalConfig, TaskConfig};
+use conik_sim::summary::{Outcome, Summary};
+
+use super::palette;
+
+/// More stretches of one mode than this cannot be told apart in a picture.
+const MOST_SPANS: usize = 400;
+
+/// What a run folder holds.
+#[derive(Clone, Debug)]
+pub struct Run {
+    log: Log,
+    summary: Summary,
+    modes: Vec<Mode>,
+    spans: Vec<Span>,
+}
+
+/// Sets that were active together at some time of the run.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Mode {
+    /// 1-based number in the mode order; `None` where it would not fit 64 bits.
+    pub number: Option<u64>,
+    /// Names of the active sets, none for the mode in which every set is inactive.
+    pub active: Vec<String>,
+    /// Its colour in all figures of the run.
+    pub colour: &'static str,
+}
+
+impl Mode {
+    /// The active sets as people write them.
+    pub fn label(&self) -> String {
+        if self.active.is_empty() {
+            "no set active".to_owned()
+        } else {
+            self.active.join(" + ")
+        }
+    }
+}
+
+/// A stretch of time in one mode.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Span {
+    /// Its beginning [s].
+    pub from_s: f64,
+    /// Its end [s].
+    pub to_s: f64,
+    /// Index into [`Run::modes`].
+    pub mode: usize,
+}
+
+impl Run {
+    /// Reads `log.csv` and `summary.json` in the folder `dir`.
+    pub fn load(dir: &Path) -> Result<Self, RunError> {
+        let path = dir.join("summary.json");
+        let text = match fs::read_to_string(&path) {
+            Ok(text) => text,
+            Err(source) => return Err(RunError::Read { path, source }),
+        };
+        let summary: Summary = match serde_json::from_str(&text) {
+            Ok(summary) => summary,
+            Err(source) => return Err(RunError::Summary { path, source }),
+        };
+        let path = dir.join("log.csv");
+        // Accelerations and measurements appear in no figure.
+        let log = Log::load_columns(&path, |name| {
+            !name.ends_with("_rad_s2") && !name.ends_with("_measured_rad")
+        })?;
+        if log.is_empty() {
+            return Err(RunError::NoRows { path });
+        }
+        Ok(Self::new(log, summary))
+    }
+
+    /// A run from its log and its summary.
+    pub fn new(log: Log, summary: Summary) -> Self {
+        let modes = modes_of(&log);
+        let spans = spans_of(&log);
+        Self {
+            log,
+            summary,
+            modes,
+            spans,
+        }
+    }
+
+    /// The log.
+    pub fn log(&self) -> &Log {
+        &self.log
+    }
+
+    /// The summary.
+    pub fn summary(&self) -> &Summary {
+        &self.summary
+    }
+
+    /// The tasks, the most important first.
+    pub fn tasks(&self) -> &[TaskConfig] {
+        &self.summary.settings.scenario.tasks
+    }
+
+    /// The modes that occurred, in order of first appearance.
+    pub fn modes(&self) -> &[Mode] {
+        &self.modes
+    }
+
+    /// When which mode was in force, in order of time.
+    pub fn spans(&self) -> &[Span] {
+        &self.spans
+    }
+
+    /// Time of the first and of the last row [s], at least a moment apart.
+    pub fn period_s(&self) -> (f64, f64) {
+        let (from, to) = super::axis::range(self.log.time_s().iter().copied());
+        (from, if to > from { to } else { from + 1.0 })
+    }
+
+    /// The value of the task of that name over time, if it is scalar and was logged.
+    pub fn value(&self, task: &str) -> Option<&[f64]> {
+        self.log.column(task)
+    }
+
+    /// The norm of the error of the equality task of that name over time.
+    pub fn error(&self, task: &str) -> Option<&[f64]> {
+        self.log.column(&format!("{task}_error"))
+    }
+
+    /// When the set of that name was active, and in which mode; as [`Run::drawable_spans`].
+    pub fn active_spans(&self, set: &str) -> Vec<Span> {
+        let holds = |mode: &Mode| mode.active.iter().any(|name| name == set);
+        let mut spans = self.drawable_spans();
+        spans.retain(|span| holds(&self.modes[span.mode]));
+        spans
+    }
+
+    /// Whether the mode changed too often for a picture to show each change.
+    pub fn flickers(&self) -> bool {
+        self.spans.len() > MOST_SPANS
+    }
+
+    /// [`Run::spans`]; of a flickering run, for each mode the short whiles in which it occurred,
+    /// which then overlap those of other modes.
+    pub fn drawable_spans(&self) -> Vec<Span> {
+        if !self.flickers() {
+            return self.spans.clone();
+        }
+        let (begin, end) = self.period_s();
+        let while_s = (end - begin) / MOST_SPANS as f64;
+        // For each mode its whiles so far; a span that begins within or right after the last of
+        // them prolongs it.
+        let mut whiles: Vec<Vec<Span>> = vec![Vec::new(); self.modes.len()];
+        for &span in &self.spans {
+            match whiles[span.mode].last_mut() {
+                Some(last) if span.from_s - last.to_s < while_s => last.to_s = span.to_s,
+                _ => whiles[span.mode].push(span),
+            }
+        }
+        whiles.concat()
+    }
+
+    /// A word on how the run ended, if it ended before its time.
+    pub fn early_end(&self) -> Option<String> {
+        match &self.summary.outcome {
+            Outcome::Completed => None,
+            Outcome::Interrupted => Some("interrupted".to_owned()),
+            Outcome::Fault { name, .. } => Some(format!("fault: {name}")),
+        }
+    }
+
+    /// What the run is called.
+    pub fn title(&self) -> &str {
+        self.summary
+            .settings
+            .scenario
+            .title
+            .as_deref()
+            .unwrap_or("Run of Conik")
+    }
+}
+
+/// Whether the task is set-based.
+pub fn is_set(task: &TaskConfig) -> bool {
+    matches!(task.goal, GoalConfig::Set { .. })
+}
+
+fn modes_of(log: &Log) -> Vec<Mode> {
+    let mut modes: Vec<Mode> = log
+        .active_sets()
+        .iter()
+        .map(|active| Mode {
+            number: None,
+            active: active.clone(),
+            colour: palette::INK,
+        })
+        .collect();
+    let mut seen = vec![false; modes.len()];
+    let mut left = seen.len();
+    for (&id, &number) in log.active().iter().zip(log.mode()) {
+        let at = id as usize;
+        if !seen[at] {
+            seen[at] = true;
+            modes[at].number = number;
+            left -= 1;
+            if left == 0 {
+                break;
+            }
+        }
+    }
+    for (nth, mode) in modes
+        .iter_mut()
+        .filter(|mode| !mode.active.is_empty())
+        .enumerate()
+    {
+        mode.colour = palette::mode(nth);
+    }
+    modes
+}
+
+fn spans_of(log: &Log) -> Vec<Span> {
+    let mut spans: Vec<Span> = Vec::new();
+    for (&t_s, &id) in log.time_s().iter().zip(log.active()) {
+        if let Some(last) = spans.last_mut() {
+            last.to_s = t_s;
+            if last.mode == id as usize {
+                continue;
+            }
+        }
+        spans.push(Span {
+            from_s: t_s,
+            to_s: t_s,
+            mode: id as usize,
+        });
+    }
+    spans
+}
+
+/// Why a run folder could not be read.
+#[derive(Debug, thiserror::Error)]
+pub enum RunError {
+    /// The summary cannot be read.
+    #[error("{}: cannot be read; is this the folder of a run?", path.display())]
+    Read {
+        /// The file.
+        path: PathBuf,
+        /// What the operating system says.
+        source: io::Error,
+    },
+    /// The summary is not one.
+    #[error("{}: not a summary of this version's format", path.display())]
+    Summary {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong, with line and column.
+        source: serde_json::Error,
+    },
+    /// The log cannot be read.
+    #[error(transparent)]
+    Log(#[from] LogError),
+    /// The log has a header only.
+    #[error("{}: has no rows, so there is nothing to show", path.display())]
+    NoRows {
+        /// The file.
+        path: PathBuf,
+    },
+}

@@ -1,0 +1,145 @@
+//! The report of a run: one page that opens anywhere, also off line.
+//!
+//! [`write`] makes `report.html` from a run folder: the verdict, the paper's Figure 4 for this
+//! run, the task table, the five properties, and the settings. The figures come from
+//! [`figure`](crate::figure); here they are put into words and tables.
+
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+
+use crate::figure::chart::Layout;
+use crate::figure::markup::Escaped;
+use crate::figure::svg::Picture;
+use crate::figure::{Run, RunError, errors, joints, mode, path, sets};
+
+mod properties;
+mod rotation;
+mod tables;
+mod units;
+mod verdict;
+
+/// Width and height of the picture of the path [px], still readable on a phone.
+const PATH: (f64, f64) = (520.0, 500.0);
+
+const STYLE: &str = include_str!("style.css");
+
+/// Writes `report.html` into the run folder `dir` and returns its path.
+pub fn write(dir: &Path) -> Result<PathBuf, ReportError> {
+    let run = Run::load(dir)?;
+    let path = dir.join("report.html");
+    match fs::write(&path, page(&run)) {
+        Ok(()) => Ok(path),
+        Err(source) => Err(ReportError::Write { path, source }),
+    }
+}
+
+/// The page as text.
+pub fn page(run: &Run) -> String {
+    let title = Escaped(run.title());
+    let sections = [
+        figure_four(run),
+        tables::tasks(run),
+        properties::section(run),
+        tables::mode_changes(run),
+        tables::timing(run),
+        joints_section(run),
+        settings(run),
+    ];
+    format!(
+        "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
+         <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
+         <meta name=\"color-scheme\" content=\"light dark\">\n\
+         <title>{title}</title>\n<style>\n{STYLE}</style>\n</head>\n<body>\n<main>\n\
+         <h1>{title}</h1>\n{}{}</main>\n{}</body>\n</html>\n",
+        verdict::banner(run),
+        sections.concat(),
+        rotation::script(),
+    )
+}
+
+/// The paper's Figure 4 for this run, in the paper's order.
+fn figure_four(run: &Run) -> String {
+    let cell = Layout::alone(440.0, 210.0);
+    let equalities = errors::tasks(run);
+    let (views, others): (Vec<_>, Vec<_>) = equalities
+        .into_iter()
+        .partition(|task| crate::figure::quantity::is_view(task));
+    let set_charts = sets::tasks(run)
+        .into_iter()
+        .map(|task| sets::chart(run, task, cell));
+    let error_charts = others
+        .into_iter()
+        .chain(views)
+        .map(|task| errors::chart(run, task, cell));
+    let sets: String = set_charts.map(|chart| card(&chart)).collect();
+    let errors: String = error_charts.map(|chart| card(&chart)).collect();
+    let path = path::panel(run, PATH.0, PATH.1);
+    format!(
+        "<section>\n<h2>What happened</h2>\n\
+         <h3>Path of the tool</h3>\n<figure class=\"card\" id=\"path\">{}{}</figure>\n\
+         <h3>Mode over time</h3>\n{}\
+         <h3>Set-based tasks and their limits</h3>\n{}\
+         <h3>Errors of the equality tasks</h3>\n{}</section>\n",
+        path.to_html(),
+        rotation::scene(run, PATH.0, PATH.1),
+        scrolling_card(&mode::panel(run, 680.0)),
+        cards(&sets, "This run has no set-based task."),
+        cards(&errors, "This run has no equality task."),
+    )
+}
+
+fn joints_section(run: &Run) -> String {
+    format!(
+        "<section>\n<h2>Joints</h2>\n{}</section>\n",
+        scrolling_card(&joints::panel(run, 860.0))
+    )
+}
+
+fn settings(run: &Run) -> String {
+    let settings = &run.summary().settings;
+    // Every part of the settings was read from JSON, so it can be written as JSON.
+    let text = serde_json::to_string_pretty(settings).unwrap_or_default();
+    format!(
+        "<section>\n<h2>Settings</h2>\n<details>\n<summary>The scenario after defaults and \
+         overrides</summary>\n<pre>{}</pre>\n</details>\n</section>\n<footer>Conik {}, format {} \
+         of the run folder</footer>\n",
+        Escaped(&text),
+        Escaped(&run.summary().version),
+        run.summary().format,
+    )
+}
+
+fn cards(cards: &str, nothing: &str) -> String {
+    if cards.is_empty() {
+        format!("<p>{nothing}</p>\n")
+    } else {
+        format!("<div class=\"cards\">\n{cards}</div>\n")
+    }
+}
+
+fn card(picture: &Picture) -> String {
+    format!("<figure class=\"card\">{}</figure>\n", picture.to_html())
+}
+
+/// A card of a picture too wide for a phone: it scrolls rather than becoming unreadable.
+fn scrolling_card(picture: &Picture) -> String {
+    let svg = picture.to_html();
+    format!("<figure class=\"card scrolling\" tabindex=\"0\">{svg}</figure>\n")
+}
+
+/// Why a report could not be written.
+#[derive(Debug, thiserror::Error)]
+pub enum ReportError {
+    /// The run folder cannot be read.
+    #[error(transparent)]
+    Run(#[from] RunError),
+    /// The page cannot be written.
+    #[error("{}: cannot be written", path.display())]
+    Write {
+        /// The file.
+        path: PathBuf,
+        /// What the operating system says.
+        source: io::Error,
+    },
+}

@@ -1,0 +1,193 @@
+//! The tables of the page: tasks, mode changes, tracking and step time.
+//!
+//! Writing to a string cannot fail, so what `writeln!` returns is dropped.
+
+use std::fmt::Write;
+
+use conik_sim::scenario::{GoalConfig, TaskConfig, TaskKind};
+use conik_sim::summary::{Summary, TaskSummary};
+
+use super::units;
+use crate::figure::lettering::{number, seconds};
+use crate::figure::markup::Escaped;
+use crate::figure::{Run, quantity};
+
+/// More mode changes than this are not listed: the log has them.
+const MOST_CHANGES: usize = 200;
+
+/// What was asked of each task and what became of it.
+pub fn tasks(run: &Run) -> String {
+    let nothing = TaskSummary::default();
+    let mut body = String::new();
+    for (nth, task) in run.tasks().iter().enumerate() {
+        let unit = quantity::unit(run, task);
+        let result = run.summary().tasks.get(&task.name).unwrap_or(&nothing);
+        let entered = match (&task.goal, result.entered_set_s) {
+            (GoalConfig::Set { .. }, None) => "never".to_owned(),
+            (_, entered) => time(entered),
+        };
+        let _ = writeln!(
+            body,
+            "<tr><td class=\"number\">{}</td><th scope=\"row\">{}</th><td>{}</td><td>{}</td>\
+             <td class=\"number\">{}</td><td class=\"number\">{entered}</td>\
+             <td class=\"number\">{}</td><td class=\"number\">{}</td></tr>",
+            nth + 1,
+            Escaped(&task.name),
+            Escaped(&kind(run, task)),
+            goal(task, unit),
+            units::optional(result.worst_violation, unit),
+            time(result.active_s),
+            units::optional(result.final_error, unit),
+        );
+    }
+    section(
+        "Tasks, the most important first",
+        &[
+            ("Priority", true),
+            ("Name", false),
+            ("Measures", false),
+            ("Asked", false),
+            ("Worst violation", true),
+            ("Entered set", true),
+            ("Active for", true),
+            ("Final error", true),
+        ],
+        &body,
+        "",
+    )
+}
+
+fn kind(run: &Run, task: &TaskConfig) -> String {
+    match task.kind {
+        TaskKind::Position => "tool position".to_owned(),
+        TaskKind::Coordinate { .. } | TaskKind::Joint { .. } => {
+            let label = quantity::value_label(run, task);
+            label.split(" [").next().unwrap_or_default().to_owned()
+        }
+        TaskKind::Distance { point_m } => format!("distance to {}", point(&point_m)),
+        TaskKind::FieldOfView { .. } => "field of view".to_owned(),
+    }
+}
+
+fn point(coordinates: &[f64]) -> String {
+    let numbers: Vec<String> = coordinates.iter().map(|&value| number(value, 4)).collect();
+    format!("({})", numbers.join(", "))
+}
+
+fn goal(task: &TaskConfig, unit: &str) -> String {
+    match &task.goal {
+        GoalConfig::Set { min, max, .. } => {
+            let min = min.map(|min| format!("≥ {}", units::limit(min, unit)));
+            let max = max.map(|max| format!("≤ {}", units::limit(max, unit)));
+            [min, max]
+                .into_iter()
+                .flatten()
+                .collect::<Vec<_>>()
+                .join(", ")
+        }
+        GoalConfig::Desired { desired, .. } => match desired[..] {
+            [value] => format!("= {}", units::limit(value, unit)),
+            _ => format!("= {} {}", point(desired), Escaped(unit)),
+        },
+        GoalConfig::Waypoints {
+            waypoints_m,
+            acceptance_m,
+            ..
+        } => format!(
+            "{} waypoints, each to {}",
+            waypoints_m.len(),
+            units::quantity(*acceptance_m, "m")
+        ),
+    }
+}
+
+/// When which sets became active.
+pub fn mode_changes(run: &Run) -> String {
+    let changes = &run.summary().modes;
+    let mut body = String::new();
+    for change in changes.iter().take(MOST_CHANGES) {
+        let mode = change
+            .mode
+            .map_or_else(|| "–".to_owned(), |mode| mode.to_string());
+        let active = if change.active.is_empty() {
+            "none".to_owned()
+        } else {
+            Escaped(&change.active.join(" + ")).to_string()
+        };
+        let _ = writeln!(
+            body,
+            "<tr><td class=\"number\">{}</td><td class=\"number\">{mode}</td><td>{active}</td></tr>",
+            seconds(change.t_s)
+        );
+    }
+    let left_out = changes.len().saturating_sub(MOST_CHANGES);
+    let note = if left_out > 0 {
+        format!("<p class=\"note\">{left_out} more changes are in summary.json.</p>\n")
+    } else {
+        String::new()
+    };
+    let columns = [("Since", true), ("Mode", true), ("Active sets", false)];
+    section("Mode changes", &columns, &body, &note)
+}
+
+/// How fast the controller was, and how closely the arm followed.
+pub fn timing(run: &Run) -> String {
+    let summary = run.summary();
+    let time = &summary.step_time_us;
+    let text = format!(
+        "<section>\n<h2>Step time and tracking</h2>\n<p>A step of the controller took {} µs \
+         (median), {} µs (99 of 100), {} µs (the slowest). {} of the arm's cycles went by without \
+         a reference. The speed limit of a joint slowed the arm in {} ticks.</p>\n",
+        number(time.median, 3),
+        number(time.p99, 3),
+        number(time.max, 3),
+        summary.deadline_misses,
+        summary.speed_limited_ticks,
+    );
+    let tracking = tracking(run, summary);
+    format!("{text}{tracking}</section>\n")
+}
+
+fn tracking(run: &Run, summary: &Summary) -> String {
+    let Some(tracking) = &summary.tracking else {
+        return "<p>This arm has no measurement of its own, so there is no tracking error.</p>\n"
+            .to_owned();
+    };
+    let mut body = String::new();
+    for (nth, (max, rms)) in tracking.max_rad.iter().zip(&tracking.rms_rad).enumerate() {
+        let _ = writeln!(
+            body,
+            "<tr><th scope=\"row\">{}</th><td class=\"number\">{}</td><td class=\"number\">{}</td></tr>",
+            Escaped(&quantity::joint_name(run, nth + 1)),
+            units::quantity(*max, "rad"),
+            units::quantity(*rms, "rad"),
+        );
+    }
+    let columns = [
+        ("Joint", false),
+        ("Largest tracking error", true),
+        ("Root mean square", true),
+    ];
+    table(&columns, &body)
+}
+
+fn time(t_s: Option<f64>) -> String {
+    t_s.map_or_else(|| "–".to_owned(), seconds)
+}
+
+fn section(title: &str, columns: &[(&str, bool)], body: &str, note: &str) -> String {
+    let table = table(columns, body);
+    format!("<section>\n<h2>{title}</h2>\n{table}{note}</section>\n")
+}
+
+fn table(columns: &[(&str, bool)], body: &str) -> String {
+    let mut head = String::new();
+    for &(name, is_number) in columns {
+        let class = if is_number { " class=\"number\"" } else { "" };
+        let _ = write!(head, "<th scope=\"col\"{class}>{name}</th>");
+    }
+    format!(
+        "<div class=\"table\"><table>\n<thead><tr>{head}</tr></thead>\n<tbody>\n{body}</tbody>\n\
+         </table></div>\n"
+    )
+}

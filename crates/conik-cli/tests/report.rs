@@ -1,0 +1,140 @@
+//! What the report of a run must say, and that it needs nothing but itself.
+
+mod invented_run;
+
+use std::fs;
+
+use conik_cli::report;
+use conik_sim::summary::Outcome;
+use invented_run::{Invention, strange_runs};
+
+fn reported(name: &str, run: &Invention) -> String {
+    let dir = run.write(&format!("report of {name}"));
+    let path = report::write(&dir).unwrap();
+    assert_eq!(path, dir.join("report.html"));
+    fs::read_to_string(path).unwrap()
+}
+
+#[test]
+fn the_page_tells_the_run_in_the_papers_order() {
+    let page = reported("the usual", &Invention::default());
+    let order = [
+        "<h1>An invented run</h1>",
+        "Completed",
+        "Waypoint 1 reached at 0.8 s, waypoint 2 reached at 1.8 s.",
+        "Path of the tool",
+        "Mode over time",
+        "Set-based tasks and their limits",
+        "Errors of the equality tasks",
+        "Tasks, the most important first",
+        "The five properties",
+        "Mode changes",
+        "Step time and tracking",
+        "Settings",
+    ];
+    let places: Vec<usize> = order
+        .iter()
+        .map(|words| {
+            page.find(words)
+                .unwrap_or_else(|| panic!("`{words}` is missing"))
+        })
+        .collect();
+    assert!(places.is_sorted(), "{places:?}");
+}
+
+#[test]
+fn the_page_needs_nothing_but_itself() {
+    let page = reported("itself", &Invention::default());
+    for reference in [
+        "http:", "https:", " src=", "@import", "<link", "url(h", "//cdn",
+    ] {
+        assert!(!page.contains(reference), "{reference}");
+    }
+}
+
+#[test]
+fn pictures_and_tables_are_accessible() {
+    let page = reported("access", &Invention::default());
+    let pictures = page.matches("<svg ").count();
+    // Path, mode, three sets, one error, joints.
+    assert_eq!(pictures, 7);
+    assert_eq!(page.matches("role=\"img\" aria-label=\"").count(), pictures);
+    assert_eq!(
+        page.matches("<table>").count(),
+        page.matches("<thead>").count()
+    );
+    assert!(page.contains("scope=\"col\"") && page.contains("scope=\"row\""));
+    assert!(page.contains("<html lang=\"en\">") && page.contains("width=device-width"));
+    assert!(page.contains("prefers-color-scheme: dark"));
+}
+
+#[test]
+fn text_of_the_user_is_never_markup() {
+    let attack = "<script>alert(1)</script>";
+    let run = Invention {
+        title: attack.into(),
+        set_name: "\"><img onerror=x>".into(),
+        outcome: Outcome::Fault {
+            name: attack.into(),
+            detail: attack.into(),
+        },
+        ..Invention::default()
+    };
+    let page = reported("an attack", &run);
+    assert!(!page.contains(attack) && !page.contains("<img"));
+    assert!(page.contains("&lt;script&gt;alert(1)&lt;/script&gt;"));
+}
+
+#[test]
+fn promises_and_observations_are_told_apart() {
+    let page = reported("promises", &Invention::default());
+    assert_eq!(page.matches("✓ holds").count(), 4);
+    assert_eq!(page.matches("✗ does not hold").count(), 1);
+    assert!(page.contains("promises nothing between samples"));
+    assert!(page.contains("1 and 5 are observations"));
+}
+
+#[test]
+fn a_run_that_ended_early_stands_out() {
+    let run = Invention {
+        outcome: Outcome::Interrupted,
+        ..Invention::default()
+    };
+    let page = reported("interruption", &run);
+    assert!(
+        page.contains("class=\"verdict bad\"") && page.contains("<strong>Interrupted</strong>")
+    );
+    let fault = Outcome::Fault {
+        name: "link-lost".into(),
+        detail: "nothing heard for 0.5 s".into(),
+    };
+    let page = reported(
+        "fault",
+        &Invention {
+            outcome: fault,
+            ..Invention::default()
+        },
+    );
+    assert!(
+        page.contains("Stopped by a fault (link-lost)") && page.contains("nothing heard for 0.5 s")
+    );
+}
+
+#[test]
+fn strange_runs_have_a_report_too() {
+    for (name, run) in strange_runs() {
+        let page = reported(name, &run);
+        assert!(page.ends_with("</html>\n"), "{name}");
+        assert!(!page.contains("NaN") || name == "not finite", "{name}");
+    }
+}
+
+#[test]
+fn a_log_cut_short_is_still_reported() {
+    let dir = Invention::default().write("report of a killed run");
+    let log = dir.join("log.csv");
+    let text = fs::read_to_string(&log).unwrap();
+    fs::write(&log, &text[..text.len() - 30]).unwrap();
+    let page = fs::read_to_string(report::write(&dir).unwrap()).unwrap();
+    assert!(page.contains("last line of the log was cut off"));
+}
