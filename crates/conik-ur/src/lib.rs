@@ -1,1 +1,2 @@
 //! UR.
+pub mod wire;
