@@ -1,6 +1,6 @@
 //! The simulated joint servo: how an arm's joints follow the references that `servoj` is given.
 //!
-//! Per joint, with q_ref the reference, K the gain and L the lookahead,
+//! Per joint, with `q_ref` the reference, K the gain and L the lookahead,
 //!
 //! ```text
 //! q̈ = K (q_ref − q − L q̇),   |q̈| ≤ acceleration limit,   |q̇| ≤ speed limit.

@@ -1,2 +1,7 @@
 //! UR.
+pub mod driver;
+pub mod program;
+pub mod registers;
+pub mod session;
+pub mod status;
 pub mod wire;
