@@ -59,6 +59,11 @@ impl Servo {
         })
     }
 
+    /// How the joints follow.
+    pub fn model(&self) -> &ServoModel {
+        &self.model
+    }
+
     /// Joint positions [rad].
     pub fn q(&self) -> &JointVec {
         &self.q

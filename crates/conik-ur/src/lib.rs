@@ -1,5 +1,6 @@
 //! UR.
 pub mod driver;
+pub mod emulator;
 pub mod program;
 pub mod registers;
 pub mod session;
