@@ -13,5 +13,6 @@ pub mod log;
 pub mod record;
 pub mod run;
 pub mod scenario;
+pub mod servo;
 pub mod summarise;
 pub mod summary;

@@ -1,0 +1,81 @@
+//! Where the controller is and how it is to be driven.
+
+use crate::registers::{JOINTS, RegisterBase};
+use std::f64::consts::{PI, TAU};
+use std::time::Duration;
+
+/// The controller's port for RTDE.
+pub const RTDE_PORT: u16 = 30004;
+
+/// The controller's port that runs any program sent to it (the secondary interface).
+pub const SCRIPT_PORT: u16 = 30002;
+
+/// Where the controller is and how it is to be driven.
+#[derive(Clone, Debug, PartialEq)]
+pub struct UrConfig {
+    /// Name or address of the controller.
+    pub host: String,
+    /// Port for RTDE.
+    pub rtde_port: u16,
+    /// Port for the servo program.
+    pub script_port: u16,
+    /// What to call the arm in front of people; `None`: what the controller says it is.
+    pub name: Option<String>,
+    /// The controller's own rate [Hz], where its version does not tell (an emulator).
+    pub controller_rate_hz: Option<f64>,
+    /// Whether the controller's clock runs on its own. Only an emulator in lockstep waits for us.
+    pub real_time: bool,
+    /// `servoj`'s lookahead time [s], 0.03 to 0.2: the delay with which the arm follows.
+    pub lookahead_s: f64,
+    /// `servoj`'s gain, 100 to 2000.
+    pub gain: f64,
+    /// How long the controller bridges missing references with `qd_ref` before it stops [s].
+    pub extrapolate_s: f64,
+    /// Deceleration when the program stops the arm [rad/s²].
+    pub stop_deceleration: f64,
+    /// How long the program on the controller waits for the first reference [s].
+    pub first_reference_within_s: f64,
+    /// Where the transport's registers begin.
+    pub registers: RegisterBase,
+    /// Speed that no reference may ask a joint to exceed [rad/s].
+    pub speed_limit: [f64; JOINTS],
+    /// Magnitude that no reference may ask a joint to exceed [rad].
+    pub position_limit: [f64; JOINTS],
+    /// How far the first reference may be from the arm, besides one cycle at the speed limit [rad].
+    pub first_reference_tolerance: f64,
+    /// Time to connect.
+    pub connect_timeout: Duration,
+    /// Silence after which the link counts as lost.
+    pub link_timeout: Duration,
+    /// Time from sending the servo program until it runs.
+    pub program_timeout: Duration,
+    /// Time from asking for a stop until the program has ended.
+    pub stop_timeout: Duration,
+}
+
+impl UrConfig {
+    /// A real controller with the maker's ports and gentle settings.
+    pub fn new(host: impl Into<String>) -> Self {
+        Self {
+            host: host.into(),
+            rtde_port: RTDE_PORT,
+            script_port: SCRIPT_PORT,
+            name: None,
+            controller_rate_hz: None,
+            real_time: true,
+            lookahead_s: 0.1,
+            gain: 300.0,
+            extrapolate_s: 0.04,
+            stop_deceleration: 4.0,
+            first_reference_within_s: 60.0,
+            registers: RegisterBase::default(),
+            speed_limit: [PI; JOINTS],
+            position_limit: [TAU; JOINTS],
+            first_reference_tolerance: 1e-3,
+            connect_timeout: Duration::from_secs(3),
+            link_timeout: Duration::from_millis(500),
+            program_timeout: Duration::from_secs(5),
+            stop_timeout: Duration::from_secs(3),
+        }
+    }
+}

@@ -1,0 +1,209 @@
+//! The last check of a reference before it goes to the arm: what fails is refused, never clamped.
+
+use super::config::UrConfig;
+use super::fault::{FIRST_REFERENCE_AWAY, REFERENCE_REFUSED};
+use crate::registers::JOINTS;
+use conik_sim::arm::{ArmError, Reference};
+
+/// Rounding that a speed exactly at its limit may bring with it.
+const SLACK: f64 = 1e-9;
+
+/// The maker's names of the joints.
+const JOINT_NAMES: [&str; JOINTS] = ["base", "shoulder", "elbow", "wrist 1", "wrist 2", "wrist 3"];
+
+/// A reference that may be sent.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Checked {
+    /// Joint positions [rad].
+    pub(super) q: [f64; JOINTS],
+    /// Joint velocities [rad/s].
+    pub(super) qd: [f64; JOINTS],
+}
+
+/// Checks references one after another.
+#[derive(Clone, Debug)]
+pub(super) struct Guard {
+    period_s: f64,
+    speed_limit: [f64; JOINTS],
+    position_limit: [f64; JOINTS],
+    first_tolerance: f64,
+    previous: Option<[f64; JOINTS]>,
+}
+
+impl Guard {
+    pub(super) fn new(config: &UrConfig, period_s: f64) -> Self {
+        Self {
+            period_s,
+            speed_limit: config.speed_limit,
+            position_limit: config.position_limit,
+            first_tolerance: config.first_reference_tolerance,
+            previous: None,
+        }
+    }
+
+    /// The reference as it may be sent to an arm that stands at `present` [rad].
+    ///
+    /// `present` counts for the first reference only: later ones follow on each other, since the
+    /// arm lags behind them by design.
+    pub(super) fn check(
+        &mut self,
+        reference: &Reference,
+        present: &[f64; JOINTS],
+    ) -> Result<Checked, ArmError> {
+        let q = six("position", &reference.q)?;
+        let qd = six("velocity", &reference.qd)?;
+        six("acceleration", &reference.qdd)?;
+        for joint in 0..JOINTS {
+            let limit = self.position_limit[joint];
+            if q[joint].abs() > limit {
+                return Err(refused(format!(
+                    "{} would go to {:.6} rad; its limit is {limit:.6} rad",
+                    name(joint),
+                    q[joint]
+                )));
+            }
+            self.check_step(joint, q[joint], present[joint])?;
+            let (speed, limit) = (qd[joint].abs(), self.speed_limit[joint]);
+            if speed > limit * (1.0 + SLACK) {
+                return Err(refused(format!(
+                    "{}: the reference velocity is {:.6} rad/s; its limit is {limit:.6} rad/s",
+                    name(joint),
+                    qd[joint]
+                )));
+            }
+        }
+        self.previous = Some(q);
+        Ok(Checked { q, qd })
+    }
+
+    fn check_step(&self, joint: usize, q: f64, present: f64) -> Result<(), ArmError> {
+        let limit = self.speed_limit[joint];
+        let cycle_at_limit = limit * self.period_s;
+        let Some(previous) = self.previous else {
+            let tolerance = self.first_tolerance + cycle_at_limit;
+            let away = (q - present).abs();
+            if away > tolerance {
+                let detail = format!(
+                    "{} is at {present:.6} rad and the first reference at {q:.6} rad, {away:.6} \
+                     rad away; {tolerance:.6} rad are allowed: bring the arm to the start, or \
+                     start from where it is",
+                    name(joint)
+                );
+                return Err(ArmError::new(FIRST_REFERENCE_AWAY, detail));
+            }
+            return Ok(());
+        };
+        let step = (q - previous[joint]).abs();
+        // The second term is the rounding of the difference of two angles.
+        if step > cycle_at_limit * (1.0 + SLACK) + 4.0 * f64::EPSILON * q.abs().max(1.0) {
+            return Err(refused(format!(
+                "{} would move {step:.6} rad in one cycle, {:.6} rad/s; its limit is {limit:.6} \
+                 rad/s",
+                name(joint),
+                step / self.period_s
+            )));
+        }
+        Ok(())
+    }
+}
+
+fn six(what: &str, values: &[f64]) -> Result<[f64; JOINTS], ArmError> {
+    let six: [f64; JOINTS] = values.try_into().map_err(|_| {
+        refused(format!(
+            "the reference has {} joints in its {what}; a UR arm has {JOINTS}",
+            values.len()
+        ))
+    })?;
+    match six.iter().position(|value| !value.is_finite()) {
+        None => Ok(six),
+        Some(joint) => Err(refused(format!(
+            "{}: the {what} is {}, not a finite number",
+            name(joint),
+            six[joint]
+        ))),
+    }
+}
+
+fn refused(detail: String) -> ArmError {
+    ArmError::new(REFERENCE_REFUSED, detail)
+}
+
+/// Joints are counted from 1 in front of people.
+fn name(joint: usize) -> String {
+    format!("joint {} ({})", joint + 1, JOINT_NAMES[joint])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use conik::JointVec;
+    use std::f64::consts::PI;
+
+    const PERIOD: f64 = 0.008;
+
+    fn guard() -> Guard {
+        Guard::new(&UrConfig::new("arm"), PERIOD)
+    }
+
+    fn reference(q: [f64; 6]) -> Reference {
+        Reference {
+            q: q.into(),
+            qd: JointVec::zeros(6),
+            qdd: JointVec::zeros(6),
+        }
+    }
+
+    #[test]
+    fn speed_at_the_limit_passes_and_above_it_names_joint_value_and_limit() {
+        let mut guard = guard();
+        let mut q = [0.0, -1.5, 1.2, 6.0, -6.0, 0.0];
+        guard.check(&reference(q), &q).unwrap();
+        for _ in 0..3 {
+            q = q.map(|angle| angle + PI * PERIOD);
+            guard.check(&reference(q), &[0.0; 6]).unwrap();
+        }
+        q[2] += 0.04;
+        let fault = guard.check(&reference(q), &[0.0; 6]).unwrap_err();
+        assert_eq!(fault.name, REFERENCE_REFUSED);
+        for part in ["joint 3 (elbow)", "5.000000 rad/s", "3.141593 rad/s"] {
+            assert!(fault.detail.contains(part), "{fault}");
+        }
+    }
+
+    #[test]
+    fn the_first_reference_must_be_where_the_arm_is() {
+        let present = [0.1; 6];
+        let allowed = 1e-3 + PI * PERIOD;
+        let mut near = present;
+        near[5] += allowed - 1e-9;
+        guard().check(&reference(near), &present).unwrap();
+        let mut away = present;
+        away[5] += allowed + 1e-9;
+        let fault = guard().check(&reference(away), &present).unwrap_err();
+        assert_eq!(fault.name, FIRST_REFERENCE_AWAY);
+        assert!(fault.detail.contains("joint 6 (wrist 3)"), "{fault}");
+    }
+
+    #[test]
+    fn nothing_but_six_finite_numbers_within_the_limits_passes() {
+        let present = [0.0; 6];
+        for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+            for part in 0..3 {
+                let mut reference = reference(present);
+                let vectors = [&mut reference.q, &mut reference.qd, &mut reference.qdd];
+                vectors.into_iter().nth(part).unwrap()[4] = bad;
+                let fault = guard().check(&reference, &present).unwrap_err();
+                assert_eq!(fault.name, REFERENCE_REFUSED);
+                assert!(fault.detail.contains("joint 5 (wrist 2)"), "{fault}");
+            }
+        }
+        let mut seven = reference(present);
+        seven.q = JointVec::zeros(7);
+        assert!(guard().check(&seven, &present).is_err());
+        let mut fast = reference(present);
+        fast.qd[0] = -3.2;
+        assert!(guard().check(&fast, &present).is_err());
+        let far = [6.3, 0.0, 0.0, 0.0, 0.0, 0.0];
+        assert!(guard().check(&reference(far), &far).is_err());
+    }
+}

@@ -1,0 +1,302 @@
+//! One connection to a controller: handshake, servo program, references, stop.
+
+use super::config::UrConfig;
+use super::fault;
+use super::guard::Guard;
+use super::plan;
+use crate::program::ServoProgram;
+use crate::registers::{Command, JOINTS, Phase};
+use crate::session::{Session, SessionError};
+use crate::status::Status;
+use crate::wire::Value;
+use conik_sim::arm::{ArmError, Feedback, Reference};
+use std::io::Write;
+use std::net::{TcpStream, ToSocketAddrs};
+use std::time::{Duration, Instant};
+
+/// A connection on which the servo program runs.
+#[derive(Debug)]
+pub(super) struct Link {
+    session: Session<TcpStream>,
+    program: ServoProgram,
+    guard: Guard,
+    status: Status,
+    silence_allowed: Duration,
+    stop_timeout: Duration,
+    /// What was sent last; a stop repeats it.
+    sent: Sent,
+    turn: Turn,
+}
+
+/// The values of the input registers.
+#[derive(Clone, Copy, Debug)]
+struct Sent {
+    counter: i32,
+    q: [f64; JOINTS],
+    qd: [f64; JOINTS],
+}
+
+/// Who is expected to do what.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Turn {
+    /// No cycle has been waited for yet.
+    FirstCycle,
+    /// A cycle has begun; its reference may be sent.
+    Reference,
+    /// The reference of this cycle is sent.
+    Cycle,
+}
+
+impl Link {
+    /// Connects, checks that the arm may move, and brings the servo program to where it waits for
+    /// the first reference. Nothing moves.
+    pub(super) fn open(config: &UrConfig, rate_hz: f64) -> Result<Self, ArmError> {
+        let stream = connect(config, config.rtde_port)?;
+        let mut session = Session::greet(stream).map_err(|error| fault::of_session(&error))?;
+        let version = session.version();
+        plan::check_registers(config, version)?;
+        let every = plan::cycles_per_reference(config, version, rate_hz)?;
+        let program = plan::program(config, rate_hz)?;
+        let text = program
+            .text()
+            .map_err(|error| ArmError::new(fault::BAD_SETTING, error.to_string()))?;
+
+        let status = subscribe(
+            &mut session,
+            config,
+            plan::controller_rate(config, version) / every,
+        )
+        .map_err(|error| fault::of_session(&error))?;
+        if let Some(fault) = fault::of_arm(&status) {
+            return Err(fault);
+        }
+        if !status.program_is_still() {
+            let detail = "a program runs on the controller: stop it at the pendant first";
+            return Err(ArmError::new(fault::OTHER_PROGRAM, detail));
+        }
+        let mut link = Self {
+            session,
+            program,
+            guard: Guard::new(config, 1.0 / rate_hz),
+            status,
+            silence_allowed: config.link_timeout,
+            stop_timeout: config.stop_timeout,
+            sent: Sent {
+                counter: 0,
+                q: status.target_q,
+                qd: [0.0; JOINTS],
+            },
+            turn: Turn::FirstCycle,
+        };
+        link.run_program(config, &text)
+            .inspect_err(|_| link.give_up())?;
+        Ok(link)
+    }
+
+    /// Sends the servo program and waits until it runs. Every package is answered, as later in the
+    /// run: a controller in lockstep waits for that.
+    fn run_program(&mut self, config: &UrConfig, text: &str) -> Result<(), ArmError> {
+        self.write(Command::Idle)?;
+        // Kept open until the program runs: closing while the controller's state messages lie
+        // unread would reset the connection, and the program could be lost with it.
+        let mut script = connect(config, config.script_port)?;
+        script.write_all(text.as_bytes()).map_err(|error| {
+            let detail = format!("the servo program could not be sent: {error}");
+            ArmError::new(fault::LINK_LOST, detail)
+        })?;
+        let deadline = Instant::now() + config.program_timeout;
+        loop {
+            self.read()?;
+            self.write(Command::Idle)?;
+            if let Some(fault) = fault::of_arm(&self.status) {
+                return Err(fault);
+            }
+            let ours = self.status.session == self.program.session;
+            if ours && self.status.phase == Some(Phase::Waiting) && self.status.program_is_running()
+            {
+                return Ok(());
+            }
+            if Instant::now() > deadline {
+                return Err(self.program_not_started(config));
+            }
+        }
+    }
+
+    fn program_not_started(&self, config: &UrConfig) -> ArmError {
+        let said = self
+            .session
+            .last_text()
+            .map_or_else(String::new, |message| {
+                format!("; the controller said: {}", message.text)
+            });
+        let detail = format!(
+            "the servo program does not run {:.1} s after it was sent to port {}: an e-Series \
+             must be in remote control, and no error may stand on the pendant{said}",
+            config.program_timeout.as_secs_f64(),
+            config.script_port
+        );
+        ArmError::new(fault::PROGRAM_NOT_STARTED, detail)
+    }
+
+    /// What the controller last said of itself.
+    pub(super) fn status(&self) -> &Status {
+        &self.status
+    }
+
+    /// The series and its software, for people.
+    pub(super) fn series_name(&self) -> String {
+        let version = self.session.version();
+        format!("UR {} (software {version})", plan::series(version))
+    }
+
+    /// Waits for the controller's next cycle.
+    pub(super) fn next_cycle(&mut self) -> Result<Feedback, ArmError> {
+        let before = self.status.timestamp;
+        let passed_over = self.read()?;
+        let elapsed = self.status.timestamp - before;
+        if let Some(fault) = fault::of_run(&self.status, self.program.session) {
+            return Err(fault);
+        }
+        // Before the first reference nobody counts: the caller may have taken any time.
+        let first = self.turn == Turn::FirstCycle;
+        let leap = !first && elapsed > self.silence_allowed.as_secs_f64();
+        if elapsed <= 0.0 || leap {
+            let detail = format!(
+                "the controller's clock went from {before:.3} s to {:.3} s: it was restarted or \
+                 stood still",
+                self.status.timestamp
+            );
+            return Err(ArmError::new(fault::CLOCK_JUMP, detail));
+        }
+        self.turn = Turn::Reference;
+        Ok(Feedback {
+            q: Some(self.status.actual_q.into()),
+            missed_cycles: if first {
+                0
+            } else {
+                passed_over.max(whole_cycles(elapsed / self.program.cycle_s).saturating_sub(1))
+            },
+        })
+    }
+
+    /// Sends the reference of the present cycle, if it may be sent.
+    pub(super) fn send(&mut self, reference: &Reference) -> Result<(), ArmError> {
+        if self.turn != Turn::Reference {
+            let detail = "one reference per cycle: wait for the next cycle before sending another";
+            return Err(ArmError::new(fault::OUT_OF_TURN, detail));
+        }
+        let checked = self.guard.check(reference, &self.status.target_q)?;
+        self.sent = Sent {
+            counter: self.sent.counter.wrapping_add(1),
+            q: checked.q,
+            qd: checked.qd,
+        };
+        self.turn = Turn::Cycle;
+        self.write(Command::Servo)
+    }
+
+    /// Lets the servo program stop the arm and end, and waits until it has.
+    pub(super) fn stop(mut self) -> Result<(), ArmError> {
+        let deadline = Instant::now() + self.stop_timeout;
+        let end = loop {
+            if let Err(fault) = self.write(Command::Stop).and_then(|()| self.read()) {
+                break fault.detail;
+            }
+            if self.status.program_is_still() {
+                return Ok(());
+            }
+            if Instant::now() > deadline {
+                break "its program still runs".to_owned();
+            }
+        };
+        let detail = format!(
+            "the controller did not confirm the stop ({end}); without references the servo \
+             program stops the arm by itself within {:.3} s: watch the arm, the emergency stop at \
+             hand",
+            self.program.cycle_s * f64::from(self.program.extrapolated_cycles + 1)
+        );
+        Err(ArmError::new(fault::STOP_UNCONFIRMED, detail))
+    }
+
+    /// Ends a servo program that may have been started, if it can still be reached.
+    fn give_up(&mut self) {
+        // The fault that led here is the one to report.
+        let _ = self.write(Command::Stop);
+    }
+
+    /// Reads the newest status; returns how many older ones were passed over.
+    fn read(&mut self) -> Result<u64, ArmError> {
+        let latest = self
+            .session
+            .latest()
+            .map_err(|error| fault::of_session(&error))?;
+        self.status = Status::from_values(&latest.values).ok_or_else(|| {
+            fault::of_session(&SessionError::OutOfOrder("the agreed output fields"))
+        })?;
+        Ok(latest.passed_over)
+    }
+
+    fn write(&mut self, command: Command) -> Result<(), ArmError> {
+        let mut values = [Value::Int32(0); 2 + 2 * JOINTS];
+        values[0] = Value::Int32(self.sent.counter);
+        values[1] = Value::Int32(command as i32);
+        for (value, number) in values[2..]
+            .iter_mut()
+            .zip(self.sent.q.iter().chain(&self.sent.qd))
+        {
+            *value = Value::Double(*number);
+        }
+        self.session
+            .send(&values)
+            .map_err(|error| fault::of_session(&error))
+    }
+}
+
+fn connect(config: &UrConfig, port: u16) -> Result<TcpStream, ArmError> {
+    let failed = |error: &dyn std::fmt::Display| {
+        let detail = format!(
+            "no connection to {}:{port}: {error}; is the controller on, the address right, and the \
+             port not blocked?",
+            config.host
+        );
+        ArmError::new(fault::CONNECT_FAILED, detail)
+    };
+    let addresses = (config.host.as_str(), port)
+        .to_socket_addrs()
+        .map_err(|error| failed(&error))?;
+    let mut last = failed(&"the name has no address");
+    for address in addresses {
+        match TcpStream::connect_timeout(&address, config.connect_timeout) {
+            Ok(stream) => {
+                stream
+                    .set_nodelay(true)
+                    .and_then(|()| stream.set_read_timeout(Some(config.link_timeout)))
+                    .and_then(|()| stream.set_write_timeout(Some(config.link_timeout)))
+                    .map_err(|error| failed(&error))?;
+                return Ok(stream);
+            }
+            Err(error) => last = failed(&error),
+        }
+    }
+    Err(last)
+}
+
+fn subscribe(
+    session: &mut Session<TcpStream>,
+    config: &UrConfig,
+    frequency_hz: f64,
+) -> Result<Status, SessionError> {
+    // A controller sends in every floor(rate / frequency)-th cycle: a hair less than the frequency
+    // keeps rounding from making that one cycle too few.
+    let frequency_hz = (frequency_hz * (1.0 - 1e-9)).max(1.0);
+    session.subscribe(frequency_hz, &Status::fields(config.registers))?;
+    session.claim(&config.registers.inputs())?;
+    session.start()?;
+    let latest = session.latest()?;
+    Status::from_values(&latest.values).ok_or(SessionError::OutOfOrder("the agreed output fields"))
+}
+
+#[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)] // Saturates; never negative here.
+fn whole_cycles(cycles: f64) -> u64 {
+    cycles.round() as u64
+}

@@ -1,0 +1,123 @@
+//! The driver: a UR arm, real or emulated, as the run loop sees it.
+//!
+//! | file | what it holds |
+//! |---|---|
+//! | `config` | where the controller is and how it is to be driven |
+//! | `link` | one connection, from the handshake to the stop |
+//! | `plan` | what is settled before: rate, registers, program |
+//! | `guard` | the last check of a reference before it goes out |
+//! | `fault` | the names of all faults |
+
+pub mod config;
+pub mod fault;
+mod guard;
+mod link;
+mod plan;
+
+pub use config::UrConfig;
+
+use crate::status::Status;
+use conik::JointVec;
+use conik_sim::arm::{Arm, ArmError, Feedback, Reference};
+use link::Link;
+
+/// A UR arm that follows references.
+///
+/// A fault is latched: from then on nothing but a stop goes to the arm, and every call reports the
+/// same fault, until `stop` and then `start` arm it anew at the pose where it stands. Dropping a
+/// started arm stops it.
+#[derive(Debug)]
+pub struct UrArm {
+    config: UrConfig,
+    link: Option<Link>,
+    fault: Option<ArmError>,
+}
+
+impl UrArm {
+    /// An arm that is not connected yet.
+    pub fn new(config: UrConfig) -> Self {
+        Self {
+            config,
+            link: None,
+            fault: None,
+        }
+    }
+
+    /// What the controller last said of itself, while connected.
+    pub fn status(&self) -> Option<&Status> {
+        self.link.as_ref().map(Link::status)
+    }
+
+    /// Runs `action` on the link unless a fault is latched, and latches the fault that it meets.
+    fn unless_faulty<T>(
+        &mut self,
+        action: impl FnOnce(&mut Link) -> Result<T, ArmError>,
+    ) -> Result<T, ArmError> {
+        if let Some(fault) = &self.fault {
+            return Err(fault.clone());
+        }
+        let Some(link) = &mut self.link else {
+            let detail = "the arm is not started, or was stopped: call start first";
+            return Err(ArmError::new(fault::NOT_STARTED, detail));
+        };
+        action(link).inspect_err(|fault| self.fault = Some(fault.clone()))
+    }
+}
+
+impl Arm for UrArm {
+    fn start(&mut self, rate_hz: f64) -> Result<JointVec, ArmError> {
+        if self.link.is_some() {
+            let detail = "the arm is already started: stop it before it is started again";
+            return Err(self
+                .fault
+                .clone()
+                .unwrap_or_else(|| ArmError::new(fault::ALREADY_STARTED, detail)));
+        }
+        self.fault = None;
+        let link = Link::open(&self.config, rate_hz)?;
+        let q = link.status().target_q;
+        self.link = Some(link);
+        Ok(q.into())
+    }
+
+    fn next_cycle(&mut self) -> Result<Feedback, ArmError> {
+        self.unless_faulty(Link::next_cycle)
+    }
+
+    fn send(&mut self, reference: &Reference) -> Result<(), ArmError> {
+        self.unless_faulty(|link| link.send(reference))
+    }
+
+    fn stop(&mut self) -> Result<(), ArmError> {
+        match self.link.take() {
+            Some(link) => link.stop(),
+            None => Ok(()),
+        }
+    }
+
+    fn describe(&self) -> String {
+        let UrConfig {
+            name,
+            host,
+            rtde_port,
+            ..
+        } = &self.config;
+        let name = match (name, &self.link) {
+            (Some(name), _) => name.clone(),
+            (None, Some(link)) => link.series_name(),
+            (None, None) => "UR arm".to_owned(),
+        };
+        format!("{name} at {host}:{rtde_port}")
+    }
+
+    fn is_real_time(&self) -> bool {
+        self.config.real_time
+    }
+}
+
+impl Drop for UrArm {
+    fn drop(&mut self) {
+        // Nobody is left to hear of a stop that was not confirmed; the servo program ends by itself.
+        let _ = self.stop();
+    }
+}

@@ -1,0 +1,166 @@
+//! What kind of controller is emulated, and how its clock goes.
+
+use conik::JointVec;
+use conik_sim::servo::BadServoModel;
+use std::f64::consts::PI;
+use std::io;
+use std::net::{IpAddr, Ipv4Addr};
+
+use crate::wire::ControllerVersion;
+
+/// The series of a controller: its rate and its software's version.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Series {
+    /// CB3: 125 Hz.
+    Cb3,
+    /// e-Series: 500 Hz.
+    E,
+}
+
+impl Series {
+    /// The rate of a real controller of this series [Hz].
+    pub fn rate_hz(self) -> f64 {
+        match self {
+            Self::Cb3 => 125.0,
+            Self::E => 500.0,
+        }
+    }
+
+    /// The version that the emulated controller gives.
+    pub(super) fn version(self) -> ControllerVersion {
+        let (major, minor) = match self {
+            Self::Cb3 => (3, 15),
+            Self::E => (5, 13),
+        };
+        ControllerVersion {
+            major,
+            minor,
+            bugfix: 0,
+            build: 0,
+        }
+    }
+}
+
+/// Which ports the emulator listens on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Ports {
+    /// Any that are free.
+    Free,
+    /// Those of a real controller, all moved by `offset`.
+    Real {
+        /// Added to each port.
+        offset: u16,
+    },
+}
+
+/// How the emulator's clock goes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Pace {
+    /// As a real controller's: no client is waited for.
+    WallTime,
+    /// One cycle at a time, each after the client has answered the package of the cycle before: as
+    /// fast as the client computes, and the same motion in every run.
+    ///
+    /// The client waited for is the one that has claimed inputs and receives outputs; before it is
+    /// there and after its program has ended, the clock goes on its own. A client that stays
+    /// silent for seconds is passed over for a cycle, so that nothing hangs.
+    Lockstep,
+}
+
+/// An emulated controller and its arm.
+#[derive(Clone, Debug, PartialEq)]
+pub struct EmulatorConfig {
+    /// What to call the arm in front of people.
+    pub name: String,
+    /// The series that it claims to be.
+    pub series: Series,
+    /// Control rate [Hz], 1 to 1000; a real controller has [`Series::rate_hz`].
+    pub rate_hz: f64,
+    /// Where its six joints stand at first [rad].
+    pub q0: JointVec,
+    /// Address to listen on.
+    pub listen: IpAddr,
+    /// Ports to listen on.
+    pub ports: Ports,
+    /// How its clock goes.
+    pub pace: Pace,
+    /// Largest speed of every joint [rad/s].
+    pub speed_limit: f64,
+    /// Largest acceleration of every joint [rad/s²]; the real figure is not published.
+    pub acceleration_limit: f64,
+    /// A larger step of `servoj`'s target from one call to the next makes a protective stop [rad].
+    /// Our choice: the real threshold is not published.
+    pub largest_step: f64,
+    /// Deceleration of a stop that no program commands [rad/s²]; the real figure is not published.
+    pub stop_deceleration: f64,
+}
+
+impl EmulatorConfig {
+    /// An arm at `q0` [rad] on free ports of this computer, at its series' rate, in wall time.
+    pub fn new(series: Series, q0: JointVec) -> Self {
+        Self {
+            name: "emulated UR5".to_owned(),
+            series,
+            rate_hz: series.rate_hz(),
+            q0,
+            listen: IpAddr::V4(Ipv4Addr::LOCALHOST),
+            ports: Ports::Free,
+            pace: Pace::WallTime,
+            speed_limit: PI,
+            acceleration_limit: 40.0,
+            largest_step: 0.1,
+            stop_deceleration: 10.0,
+        }
+    }
+}
+
+/// Something that happens to the controller from outside.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Injection {
+    /// A protective stop, as after a collision.
+    ProtectiveStop,
+    /// Someone presses the emergency stop.
+    EmergencyStop,
+    /// Someone presses stop on the pendant.
+    StopProgram,
+    /// Someone presses pause on the pendant.
+    PauseProgram,
+    /// The clock begins anew, as after a restart of the controller.
+    RestartClock,
+    /// Stops are released, the arm is powered and ready again.
+    Release,
+}
+
+/// Why an emulator cannot start.
+#[derive(Debug, thiserror::Error)]
+pub enum EmulatorError {
+    /// A UR arm has six joints.
+    #[error("q0 has {0} joints; a UR arm has 6")]
+    JointCount(usize),
+    /// A setting outside of what is possible.
+    #[error("the emulator's {name} is {value}; it must be {need}")]
+    BadSetting {
+        /// Which setting.
+        name: &'static str,
+        /// Its value.
+        value: f64,
+        /// What is possible.
+        need: &'static str,
+    },
+    /// The servo cannot have these limits.
+    #[error(transparent)]
+    Servo(#[from] BadServoModel),
+    /// No port could be opened.
+    #[error("port {port} of {address} cannot be opened: {cause}; another program may hold it")]
+    Listen {
+        /// The address.
+        address: IpAddr,
+        /// The port; 0 is any free one.
+        port: u16,
+        /// What the system said.
+        cause: io::Error,
+    },
+    /// No thread could be started.
+    #[error("a thread could not be started: {0}")]
+    Thread(io::Error),
+}

@@ -1,0 +1,211 @@
+//! An emulated UR controller with its arm, inside this process, reached over real TCP.
+//!
+//! | file | what it holds |
+//! |---|---|
+//! | `config` | which controller is emulated, and what can happen to it |
+//! | `controller` | clock, safety, program and arm, without threads or sockets |
+//! | `servo_program` | the servo program as a state machine |
+//! | `registers`, `fields` | general-purpose registers; fields by name |
+//! | `rtde`, `script_port` | the two protocols, without sockets |
+//! | `world`, `outbox` | what the threads share |
+//! | `server`, `clock` | the threads |
+//!
+//! It does not interpret `URScript`: it recognises the servo program of this crate, to the letter,
+//! and refuses any other. Its servo, limits and stops are assumed; see [`conik_sim::servo`].
+
+mod clock;
+mod config;
+mod controller;
+mod fields;
+mod outbox;
+mod registers;
+mod rtde;
+mod script_port;
+mod server;
+mod servo_program;
+mod world;
+
+pub use config::{EmulatorConfig, EmulatorError, Injection, Pace, Ports, Series};
+
+use crate::driver::UrConfig;
+use crate::driver::config::{RTDE_PORT, SCRIPT_PORT};
+use crate::registers::JOINTS;
+use crate::wire::Value;
+use conik::JointVec;
+use controller::Controller;
+use fields::OutputField;
+use std::net::IpAddr;
+use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
+use std::thread::{self, JoinHandle};
+use std::time::Duration;
+use world::{Shared, World};
+
+/// A running emulator. It ends, with all its threads and connections, when it is dropped.
+#[derive(Debug)]
+pub struct Emulator {
+    config: EmulatorConfig,
+    shared: Arc<Shared>,
+    rtde_port: u16,
+    script_port: u16,
+    threads: Vec<JoinHandle<()>>,
+}
+
+impl Emulator {
+    /// Opens the ports and starts the clock.
+    pub fn start(config: EmulatorConfig) -> Result<Self, EmulatorError> {
+        check(&config)?;
+        let offset = match config.ports {
+            Ports::Free => None,
+            Ports::Real { offset } => Some(offset),
+        };
+        let port = |number: u16| match offset {
+            None => Ok(0),
+            Some(offset) => number.checked_add(offset).ok_or(EmulatorError::BadSetting {
+                name: "port offset",
+                value: f64::from(offset),
+                need: "small enough that no port exceeds 65535",
+            }),
+        };
+        let (rtde, rtde_port) = server::listen(config.listen, port(RTDE_PORT)?)?;
+        let (script, script_port) = server::listen(config.listen, port(SCRIPT_PORT)?)?;
+        let shared = Arc::new(Shared {
+            world: Mutex::new(World::new(Controller::new(&config)?)),
+            changed: Condvar::new(),
+            version: config.series.version(),
+            rate_hz: config.rate_hz,
+            pace: config.pace,
+        });
+        // From here on a failure drops the emulator, which ends the threads started so far.
+        let mut emulator = Self {
+            rtde_port,
+            script_port,
+            config,
+            shared,
+            threads: Vec::new(),
+        };
+        let thread = server::serve_rtde(&emulator.shared, rtde)?;
+        emulator.threads.push(thread);
+        let thread = server::serve_scripts(&emulator.shared, script)?;
+        emulator.threads.push(thread);
+        let shared = Arc::clone(&emulator.shared);
+        let thread = thread::Builder::new()
+            .name("emulator clock".to_owned())
+            .spawn(move || clock::run(&shared))
+            .map_err(EmulatorError::Thread)?;
+        emulator.threads.push(thread);
+        Ok(emulator)
+    }
+
+    /// How it was set up.
+    pub fn config(&self) -> &EmulatorConfig {
+        &self.config
+    }
+
+    /// The port that speaks RTDE.
+    pub fn rtde_port(&self) -> u16 {
+        self.rtde_port
+    }
+
+    /// The port that takes programs.
+    pub fn script_port(&self) -> u16 {
+        self.script_port
+    }
+
+    /// Settings of a driver for this emulator: its ports, rate, pace and name.
+    pub fn driver_config(&self) -> UrConfig {
+        let host = match self.config.listen {
+            any if any.is_unspecified() => match any {
+                IpAddr::V4(_) => "127.0.0.1".to_owned(),
+                IpAddr::V6(_) => "::1".to_owned(),
+            },
+            one => one.to_string(),
+        };
+        UrConfig {
+            rtde_port: self.rtde_port,
+            script_port: self.script_port,
+            name: Some(self.config.name.clone()),
+            controller_rate_hz: Some(self.config.rate_hz),
+            real_time: self.config.pace == Pace::WallTime,
+            // A busy computer is no broken cable.
+            link_timeout: match self.config.pace {
+                Pace::WallTime => Duration::from_secs(2),
+                Pace::Lockstep => Duration::from_secs(20),
+            },
+            program_timeout: Duration::from_secs(20),
+            ..UrConfig::new(host)
+        }
+    }
+
+    /// Lets something happen to the controller.
+    pub fn inject(&self, injection: Injection) {
+        lock(&self.shared.world).controller.inject(injection);
+    }
+
+    /// Where the controller commands the joints at present [rad].
+    pub fn target_q(&self) -> JointVec {
+        match lock(&self.shared.world)
+            .controller
+            .output(OutputField::TargetQ)
+        {
+            Value::Vector6d(q) => q.into(),
+            _ => self.config.q0,
+        }
+    }
+
+    /// What has happened, a line each with the controller's time; old lines fall out.
+    pub fn log_lines(&self) -> Vec<String> {
+        let world = lock(&self.shared.world);
+        world.controller.log().cloned().collect()
+    }
+}
+
+impl Drop for Emulator {
+    fn drop(&mut self) {
+        lock(&self.shared.world).close();
+        self.shared.changed.notify_all();
+        for thread in self.threads.drain(..) {
+            // A thread that panicked has nothing left to end.
+            let _ = thread.join();
+        }
+    }
+}
+
+fn check(config: &EmulatorConfig) -> Result<(), EmulatorError> {
+    if config.q0.len() != JOINTS {
+        return Err(EmulatorError::JointCount(config.q0.len()));
+    }
+    let positive = f64::MIN_POSITIVE..=f64::MAX;
+    let settings = [
+        ("rate [Hz]", config.rate_hz, 1.0..=1000.0, "1 to 1000"),
+        (
+            "largest step [rad]",
+            config.largest_step,
+            positive.clone(),
+            "above zero",
+        ),
+        (
+            "stop deceleration [rad/s²]",
+            config.stop_deceleration,
+            positive,
+            "above zero",
+        ),
+    ];
+    for (name, value, allowed, need) in settings {
+        if !allowed.contains(&value) {
+            return Err(EmulatorError::BadSetting { name, value, need });
+        }
+    }
+    match config.q0.iter().find(|angle| !angle.is_finite()) {
+        None => Ok(()),
+        Some(value) => Err(EmulatorError::BadSetting {
+            name: "q0 [rad]",
+            value: *value,
+            need: "finite",
+        }),
+    }
+}
+
+/// Locks even if a thread panicked while it held the lock: the emulator goes on for the others.
+fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
+}
