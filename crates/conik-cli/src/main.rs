@@ -1,2 +1,28 @@
 //! The command `conik`.
-fn main() {}
+
+mod arguments;
+mod commands;
+mod failure;
+mod present;
+mod progress;
+
+use std::process::ExitCode;
+
+use arguments::{Arguments, Command};
+use clap::Parser;
+
+fn main() -> ExitCode {
+    let done = match Arguments::parse().command {
+        Command::Run(arguments) => commands::run::run(&arguments),
+        Command::Check(arguments) => commands::check::check(&arguments),
+        Command::Plot(arguments) => commands::plot::plot(&arguments),
+        Command::Emulate(arguments) => commands::emulate::emulate(&arguments),
+        Command::Init(arguments) => commands::init::init(&arguments),
+        Command::Schema => commands::schema::schema(),
+        Command::Completions { shell } => commands::completions::completions(shell),
+    };
+    done.unwrap_or_else(|failure| {
+        eprintln!("{}", failure.text());
+        ExitCode::from(failure.status())
+    })
+}

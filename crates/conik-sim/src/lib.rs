@@ -8,6 +8,7 @@
 //! Nothing here knows which arm it drives or how a log is drawn.
 
 pub mod arm;
+pub mod check;
 pub mod experiment;
 pub mod log;
 pub mod record;

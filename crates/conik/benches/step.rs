@@ -10,7 +10,9 @@ mod paper;
 use std::hint::black_box;
 use std::time::Instant;
 
-use conik::{FieldOfView, JacobianMut, JointVec, Kinematics, ModeRule, Position, Robot, Settings, Task};
+use conik::{
+    FieldOfView, JacobianMut, JointVec, Kinematics, ModeRule, Position, Robot, Settings, Task,
+};
 use paper::Example;
 
 const TICKS: usize = 7500;
@@ -19,7 +21,10 @@ const ROUNDS: usize = 5;
 
 fn main() {
     println!("reading the clock twice: {} ns", clock_ns());
-    println!("{:<38} {:>9} {:>9} {:>9} {:>9}", "[µs]", "median", "p99", "max", "batch");
+    println!(
+        "{:<38} {:>9} {:>9} {:>9} {:>9}",
+        "[µs]", "median", "p99", "max", "batch"
+    );
     kinematics();
     for (number, start) in [(1, "thesis"), (2, "thesis"), (3, "thesis"), (2, "bench")] {
         for mode_rule in [ModeRule::Paper, ModeRule::Border] {
@@ -30,7 +35,10 @@ fn main() {
 
 /// Fastest of many pairs of clock readings.
 fn clock_ns() -> u128 {
-    (0..100_000).map(|_| Instant::now().elapsed().as_nanos()).min().unwrap_or(0)
+    (0..100_000)
+        .map(|_| Instant::now().elapsed().as_nanos())
+        .min()
+        .unwrap_or(0)
 }
 
 /// Forward kinematics with the 3×6 Jacobians of the tool's position and of its z axis.
@@ -49,24 +57,30 @@ fn kinematics() {
             })
         })
         .collect();
-    report("forward kinematics + both Jacobians", &configurations, |q| {
-        kinematics.update(black_box(q));
-        Position::of_tool().jacobian(&kinematics, &mut JacobianMut::new(&mut jacobian, 6));
-        black_box(&jacobian);
-        for axis in [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]] {
-            kinematics.axis_row(conik::Frame::Tool, axis.into(), &mut jacobian[..6]);
+    report(
+        "forward kinematics + both Jacobians",
+        &configurations,
+        |q| {
+            kinematics.update(black_box(q));
+            Position::of_tool().jacobian(&kinematics, &mut JacobianMut::new(&mut jacobian, 6));
             black_box(&jacobian);
-        }
-        let mut sigma = [0.0];
-        view.value(&kinematics, &mut sigma);
-        black_box(sigma);
-    });
+            for axis in [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]] {
+                kinematics.axis_row(conik::Frame::Tool, axis.into(), &mut jacobian[..6]);
+                black_box(&jacobian);
+            }
+            let mut sigma = [0.0];
+            view.value(&kinematics, &mut sigma);
+            black_box(sigma);
+        },
+    );
 }
 
 fn example(number: u8, start: &str, mode_rule: ModeRule) {
     let q0 = match start {
         "thesis" => paper::thesis(),
-        _ => [-0.913_794, -2.850_336, -1.496_087, -1.936_762, -2.484_59, 1.611_513],
+        _ => [
+            -0.913_794, -2.850_336, -1.496_087, -1.936_762, -2.484_59, 1.611_513,
+        ],
     };
     let settings = Settings {
         mode_rule,
@@ -83,7 +97,10 @@ fn example(number: u8, start: &str, mode_rule: ModeRule) {
     let name = format!("example {number}, {mode_rule:?}, start {start}").to_lowercase();
     let (position, mut controller) = (example.position, example.controller);
     report(&name, &run, |(q, target)| {
-        controller.setpoints().set_desired(position, target).expect("finite");
+        controller
+            .setpoints()
+            .set_desired(position, target)
+            .expect("finite");
         black_box(controller.step(black_box(q)).expect("finite"));
     });
 }

@@ -4,7 +4,7 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
-use conik_sim::log::read::{Log, LogError};
+use conik_sim::log::{Log, LogError};
 use conik_sim::scenario::{GoalConfig, TaskConfig};
 use conik_sim::summary::{Outcome, Summary};
 

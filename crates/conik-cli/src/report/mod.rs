@@ -16,7 +16,7 @@ use crate::figure::{Run, RunError, errors, joints, mode, path, sets};
 mod properties;
 mod rotation;
 mod tables;
-mod units;
+pub mod units;
 mod verdict;
 
 /// Width and height of the picture of the path [px], still readable on a phone.

@@ -168,3 +168,15 @@ pub enum GoalConfig {
         gain_per_s: Option<f64>,
     },
 }
+
+impl GoalConfig {
+    /// Λ [1/s], where the goal has one.
+    pub fn gain_per_s(&self) -> Option<f64> {
+        match self {
+            Self::Waypoints { gain_per_s, .. } | Self::Desired { gain_per_s, .. } => {
+                Some(*gain_per_s)
+            }
+            Self::Set { gain_per_s, .. } => *gain_per_s,
+        }
+    }
+}

@@ -1,0 +1,151 @@
+//! The command line.
+
+use std::path::PathBuf;
+
+use clap::{Args, Parser, Subcommand, ValueEnum, ValueHint};
+use clap_complete::Shell;
+
+/// Set-based task-priority control of robot arms.
+///
+/// A scenario is a page of TOML: a robot, a start, and tasks in decreasing priority. `conik run`
+/// drives an arm through it and shows what became of every task. Start with `conik init`.
+#[derive(Debug, Parser)]
+#[command(name = "conik", version, max_term_width = 100)]
+pub struct Arguments {
+    /// What to do.
+    #[command(subcommand)]
+    pub command: Command,
+}
+
+/// What to do.
+#[derive(Debug, Subcommand)]
+pub enum Command {
+    /// Run a scenario on an arm and write log.csv, summary.json and report.html
+    Run(RunArguments),
+    /// Validate a scenario; print its robot, hierarchy and modes, and what is doubtful
+    Check(CheckArguments),
+    /// Draw the figures of a run again from its log
+    Plot(PlotArguments),
+    /// Emulate a Universal Robots controller on its real ports, until Ctrl-C
+    Emulate(EmulateArguments),
+    /// Write a commented scenario to start from
+    Init(InitArguments),
+    /// Print the JSON Schema of the scenario file
+    Schema,
+    /// Print a completion script for a shell
+    Completions {
+        /// The shell.
+        shell: Shell,
+    },
+}
+
+/// `conik run`
+///
+/// Exit status: 0 done; 1 the run ended in a fault, or a guarantee that the settings promise was
+/// broken; 2 bad usage or bad input; 130 stopped with Ctrl-C.
+#[derive(Debug, Args)]
+#[command(
+    after_help = "Exit status: 0 done; 1 the run ended in a fault, or a guarantee that the \
+    settings promise was broken; 2 bad usage or bad input; 130 stopped with Ctrl-C."
+)]
+pub struct RunArguments {
+    /// The scenario file
+    #[arg(value_hint = ValueHint::FilePath)]
+    pub scenario: PathBuf,
+    /// The arm: `emulator` (a UR controller emulated in this process, over TCP on loopback),
+    /// `ideal` (q = q_ref, no network, as fast as possible), or the host name of a real controller
+    #[arg(long, value_name = "emulator|ideal|HOST", default_value = "emulator")]
+    pub robot: String,
+    /// Run the emulator in lockstep, as fast as references are computed, not in wall time
+    #[arg(long)]
+    pub fast: bool,
+    /// Where to write the log, the summary and the report [default: out/<scenario name>]
+    #[arg(long, value_name = "DIR", value_hint = ValueHint::DirPath)]
+    pub out: Option<PathBuf>,
+    /// No progress line and no summary; errors are printed all the same
+    #[arg(long, short)]
+    pub quiet: bool,
+    /// What the file says otherwise.
+    #[command(flatten)]
+    pub overrides: Overrides,
+    /// Added to the controller's ports, for an emulator beside a real one
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    pub port_offset: u16,
+}
+
+/// Settings that override the file.
+#[derive(Debug, Args)]
+#[command(next_help_heading = "Override the scenario")]
+pub struct Overrides {
+    /// Which rule chooses the active sets: `paper` or `border`
+    #[arg(long, value_name = "RULE")]
+    pub mode_rule: Option<String>,
+    /// What happens at the border of a set between samples: `freeze`
+    #[arg(long, value_name = "BORDER")]
+    pub border: Option<String>,
+    /// How lower levels are fitted under higher ones: `chiaverini`
+    #[arg(long, value_name = "RECURSION")]
+    pub recursion: Option<String>,
+    /// Length of the run [s]
+    #[arg(long, value_name = "SECONDS")]
+    pub duration_s: Option<f64>,
+    /// Control rate [Hz]
+    #[arg(long, value_name = "HZ")]
+    pub rate_hz: Option<f64>,
+}
+
+/// `conik check`
+#[derive(Debug, Args)]
+pub struct CheckArguments {
+    /// The scenario file
+    #[arg(value_hint = ValueHint::FilePath)]
+    pub scenario: PathBuf,
+}
+
+/// `conik plot`
+#[derive(Debug, Args)]
+pub struct PlotArguments {
+    /// A folder that `conik run` wrote
+    #[arg(value_hint = ValueHint::DirPath)]
+    pub dir: PathBuf,
+    /// Do not print the names of the files written
+    #[arg(long, short)]
+    pub quiet: bool,
+}
+
+/// `conik emulate`
+#[derive(Debug, Args)]
+pub struct EmulateArguments {
+    /// Which series of controllers to be: `cb3` (125 Hz) or `e` (500 Hz)
+    #[arg(long, value_enum, default_value_t = SeriesArgument::E)]
+    pub series: SeriesArgument,
+    /// Added to every port
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    pub port_offset: u16,
+    /// Address to listen on. Only this computer can reach the default
+    #[arg(long, value_name = "ADDRESS", default_value = "127.0.0.1")]
+    pub listen: std::net::IpAddr,
+    /// Stand where this scenario starts
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    pub scenario: Option<PathBuf>,
+}
+
+/// Series of controllers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum SeriesArgument {
+    /// CB3, 125 Hz
+    Cb3,
+    /// e-Series, 500 Hz
+    E,
+}
+
+/// `conik init`
+#[derive(Debug, Args)]
+pub struct InitArguments {
+    /// The file to write; `-` prints it
+    #[arg(default_value = "scenario.toml", value_hint = ValueHint::FilePath)]
+    pub path: PathBuf,
+    /// Replace the file if it is there
+    #[arg(long)]
+    pub force: bool,
+}

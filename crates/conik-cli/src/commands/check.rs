@@ -1,0 +1,115 @@
+//! `conik check`: what a scenario is, and what is doubtful about it, before anything moves.
+
+use std::process::ExitCode;
+
+use conik_cli::report::units::limit;
+use conik_sim::check::{Findings, find};
+use conik_sim::experiment::Experiment;
+use conik_sim::scenario::{Choice, GoalConfig, Scenario};
+
+use crate::arguments::CheckArguments;
+use crate::failure::Failure;
+
+/// Prints the robot, the hierarchy, the modes and the doubts.
+pub fn check(arguments: &CheckArguments) -> Result<ExitCode, Failure> {
+    let scenario = Scenario::load(&arguments.scenario)?;
+    let experiment = Experiment::new(&scenario).map_err(Failure::input)?;
+    let findings = find(&scenario, &experiment);
+    let mut text = String::new();
+    if let Some(title) = &scenario.title {
+        text += &format!("{title}\n\n");
+    }
+    text += &robot(&scenario, &experiment, &findings);
+    text += &hierarchy(&scenario, &experiment, &findings);
+    text += &modes(&scenario, &experiment);
+    text += &doubts(&findings);
+    super::print(&text)
+}
+
+fn robot(scenario: &Scenario, experiment: &Experiment, findings: &Findings) -> String {
+    let tool = findings
+        .tool_m
+        .map(|value| format!("{value:.4}"))
+        .join(", ");
+    let mut text = format!(
+        "robot {}, tool at ({tool}) m at the start\n",
+        scenario.robot.model
+    );
+    for (i, (joint, q)) in experiment
+        .robot
+        .joints()
+        .iter()
+        .zip(experiment.q0.iter())
+        .enumerate()
+    {
+        let speed = joint.limits.speed.map_or(String::new(), |limit| {
+            format!(", at most {:.1}°/s", limit.to_degrees())
+        });
+        let name = &joint.name;
+        text += &format!(
+            "  {} {name:<22} starts at {:8.3}°{speed}\n",
+            i + 1,
+            q.to_degrees()
+        );
+    }
+    text + "\n"
+}
+
+fn hierarchy(scenario: &Scenario, experiment: &Experiment, findings: &Findings) -> String {
+    let mut text = "tasks in decreasing priority, values at the start\n".to_owned();
+    let stack = experiment.controller.stack();
+    for (i, ((id, level), config)) in stack.iter().zip(&scenario.tasks).enumerate() {
+        let unit = level.task().unit();
+        let kind = match (&config.goal, stack.is_high_priority(id)) {
+            (GoalConfig::Set { .. }, true) => "set, high priority",
+            (GoalConfig::Set { .. }, false) => "set, low priority",
+            _ => "equality",
+        };
+        let wanted = match level.interval() {
+            Some(set) if set.min.is_finite() && set.max.is_finite() => {
+                format!("allowed {} … {}", limit(set.min, "-"), limit(set.max, unit))
+            }
+            Some(set) if set.min.is_finite() => format!("at least {}", limit(set.min, unit)),
+            Some(set) => format!("at most {}", limit(set.max, unit)),
+            None => format!("gain {}/s", config.goal.gain_per_s().unwrap_or(0.0)),
+        };
+        let name = &config.name;
+        let now = &findings.values[i];
+        text += &format!("  {} {name:<16} {kind:<19} {wanted:<24} now {now}\n", i + 1);
+    }
+    text + "\n"
+}
+
+fn modes(scenario: &Scenario, experiment: &Experiment) -> String {
+    let sets = experiment
+        .controller
+        .stack()
+        .iter()
+        .filter(|(_, level)| level.interval().is_some())
+        .count();
+    let count = experiment
+        .mode_order
+        .count()
+        .map_or("more modes than fit 64 bits".to_owned(), |count| {
+            format!("{count} modes")
+        });
+    format!(
+        "{sets} set-based tasks make {count}; rule `{}`, border `{}`, recursion `{}`, {} Hz, {} s\n\n",
+        scenario.control.mode_rule.name(),
+        scenario.control.border.name(),
+        scenario.control.recursion.name(),
+        scenario.control.rate_hz,
+        scenario.control.duration_s,
+    )
+}
+
+fn doubts(findings: &Findings) -> String {
+    if findings.doubts.is_empty() {
+        return "nothing is doubtful\n".to_owned();
+    }
+    let mut text = "doubtful:\n".to_owned();
+    for doubt in &findings.doubts {
+        text += &format!("  - {doubt}\n");
+    }
+    text
+}

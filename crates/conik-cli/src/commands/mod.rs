@@ -1,0 +1,25 @@
+//! One file per command. Each returns the exit status, or a [`Failure`](crate::failure::Failure).
+
+pub mod check;
+pub mod completions;
+pub mod emulate;
+pub mod init;
+pub mod plot;
+pub mod run;
+pub mod schema;
+
+use std::io::{self, Write};
+use std::process::ExitCode;
+
+use crate::failure::Failure;
+
+/// Prints to standard output. A reader that went away (`conik schema | head`) is no failure.
+fn print(text: &str) -> Result<ExitCode, Failure> {
+    let mut out = io::stdout().lock();
+    match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
+        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => Err(Failure::run(format!(
+            "cannot write to standard output: {error}"
+        ))),
+        _ => Ok(ExitCode::SUCCESS),
+    }
+}

@@ -1,0 +1,303 @@
+//! `conik run`: the main job. Drives an arm through a scenario and writes what became of it.
+//!
+//! The loop that drives the arm has a thread of its own and hands its records over a bounded channel;
+//! the log, the summary and the progress line are made here and never hold it up.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::{self, SyncSender, TrySendError};
+use std::thread;
+
+use conik_cli::report;
+use conik_sim::arm::{Arm, ArmError, IdealArm};
+use conik_sim::experiment::Experiment;
+use conik_sim::log::{LogWriteError, LogWriter};
+use conik_sim::record::Record;
+use conik_sim::run::{self, Ended};
+use conik_sim::scenario::{Choice, Scenario};
+use conik_sim::summarise::Summariser;
+use conik_sim::summary::{Outcome, Settings, Summary};
+use conik_ur::driver::{UrArm, UrConfig};
+use conik_ur::emulator::{Emulator, EmulatorConfig, Pace, Series};
+
+use crate::arguments::{Overrides, RunArguments};
+use crate::failure::Failure;
+use crate::present;
+use crate::progress::Progress;
+
+/// Records that may wait for the log: eight seconds at 500 Hz.
+const RECORDS_WAITING: usize = 4096;
+
+/// Exit status of a run that a person stopped, as shells have it for Ctrl-C.
+const INTERRUPTED: u8 = 130;
+
+/// Runs the scenario.
+pub fn run(arguments: &RunArguments) -> Result<ExitCode, Failure> {
+    let mut scenario = Scenario::load(&arguments.scenario)?;
+    arguments.overrides.apply(&mut scenario)?;
+    let experiment = Experiment::new(&scenario).map_err(Failure::input)?;
+    let out = out_dir(arguments);
+    fs::create_dir_all(&out).map_err(|error| {
+        Failure::input(format!("cannot make the folder {}: {error}", out.display()))
+    })?;
+    let log = LogWriter::create(&out.join("log.csv"), experiment.controller.stack())
+        .map_err(Failure::input)?;
+    let settings = settings(&scenario, &experiment, &arguments.robot);
+    let stop = stop_on_ctrl_c()?;
+    let mut driven = arm(arguments, &scenario, &experiment)?;
+    if !arguments.quiet {
+        super::print(&present::heading(&scenario, &driven.arm.describe()))?;
+    }
+    let progress = Progress::new(&experiment, arguments.quiet);
+    let finished = drive(experiment, driven.arm.as_mut(), log, progress, &stop);
+    drop(driven);
+    finish(arguments, &out, settings, finished)
+}
+
+/// A flag that Ctrl-C sets.
+pub fn stop_on_ctrl_c() -> Result<Arc<AtomicBool>, Failure> {
+    let stop = Arc::new(AtomicBool::new(false));
+    let flag = Arc::clone(&stop);
+    ctrlc::set_handler(move || flag.store(true, Ordering::Relaxed))
+        .map_err(|error| Failure::run(format!("cannot listen for Ctrl-C: {error}")))?;
+    Ok(stop)
+}
+
+impl Overrides {
+    fn apply(&self, scenario: &mut Scenario) -> Result<(), Failure> {
+        let control = &mut scenario.control;
+        choose(
+            "mode-rule",
+            self.mode_rule.as_deref(),
+            &mut control.mode_rule,
+        )?;
+        choose("border", self.border.as_deref(), &mut control.border)?;
+        choose(
+            "recursion",
+            self.recursion.as_deref(),
+            &mut control.recursion,
+        )?;
+        control.rate_hz = self.rate_hz.unwrap_or(control.rate_hz);
+        control.duration_s = self.duration_s.unwrap_or(control.duration_s);
+        for (option, value) in [
+            ("rate-hz", control.rate_hz),
+            ("duration-s", control.duration_s),
+        ] {
+            if !value.is_finite() {
+                return Err(Failure::input(format!(
+                    "--{option}: {value} is no finite number"
+                )));
+            }
+        }
+        scenario
+            .check()
+            .map_err(|errors| Failure::overrides(&errors))
+    }
+}
+
+fn choose<T: Choice + 'static>(
+    option: &str,
+    name: Option<&str>,
+    value: &mut T,
+) -> Result<(), Failure> {
+    let Some(name) = name else { return Ok(()) };
+    *value = T::from_name(name).ok_or_else(|| {
+        let known: Vec<&str> = T::ALL.iter().map(|(choice, _)| choice.name()).collect();
+        let known = known.join("`, `");
+        Failure::input(if T::NOT_YET.contains(&name) {
+            format!("--{option}: this version does not have `{name}` yet; it has `{known}`")
+        } else {
+            format!("--{option}: there is no `{name}`; give one of `{known}`")
+        })
+    })?;
+    Ok(())
+}
+
+fn out_dir(arguments: &RunArguments) -> PathBuf {
+    arguments.out.clone().unwrap_or_else(|| {
+        let name = arguments.scenario.file_stem().unwrap_or("run".as_ref());
+        Path::new("out").join(name)
+    })
+}
+
+fn settings(scenario: &Scenario, experiment: &Experiment, robot: &str) -> Settings {
+    let stack = experiment.controller.stack();
+    Settings {
+        robot: robot.to_owned(),
+        scenario: scenario.clone(),
+        joint_names: experiment.robot.joint_names().map(str::to_owned).collect(),
+        units: stack
+            .iter()
+            .map(|(_, level)| (level.name().to_owned(), level.task().unit().to_owned()))
+            .collect(),
+    }
+}
+
+/// An arm, and what must live as long as it.
+struct Driven {
+    arm: Box<dyn Arm + Send>,
+    /// Ends when the arm has let go of it.
+    _emulator: Option<Emulator>,
+}
+
+fn arm(
+    arguments: &RunArguments,
+    scenario: &Scenario,
+    experiment: &Experiment,
+) -> Result<Driven, Failure> {
+    let rate_hz = scenario.control.rate_hz;
+    let (arm, emulator): (Box<dyn Arm + Send>, _) = match arguments.robot.as_str() {
+        "ideal" => (Box::new(IdealArm::at(experiment.q0)), None),
+        "emulator" => {
+            let series = if rate_hz <= Series::Cb3.rate_hz() {
+                Series::Cb3
+            } else {
+                Series::E
+            };
+            let emulator = Emulator::start(EmulatorConfig {
+                rate_hz,
+                pace: if arguments.fast {
+                    Pace::Lockstep
+                } else {
+                    Pace::WallTime
+                },
+                ..EmulatorConfig::new(series, experiment.q0)
+            })
+            .map_err(Failure::input)?;
+            (
+                Box::new(UrArm::new(emulator.driver_config())),
+                Some(emulator),
+            )
+        }
+        host => {
+            let mut config = UrConfig::new(host);
+            for port in [&mut config.rtde_port, &mut config.script_port] {
+                *port = port
+                    .checked_add(arguments.port_offset)
+                    .ok_or_else(|| Failure::input("--port-offset: no port may exceed 65535"))?;
+            }
+            (Box::new(UrArm::new(config)), None)
+        }
+    };
+    Ok(Driven {
+        arm,
+        _emulator: emulator,
+    })
+}
+
+/// A run that has ended, and what was made of its records.
+struct Finished {
+    ended: Ended,
+    summariser: Summariser,
+    log: Result<(), LogWriteError>,
+}
+
+fn drive(
+    experiment: Experiment,
+    arm: &mut (dyn Arm + Send),
+    mut log: LogWriter,
+    mut progress: Progress,
+    stop: &AtomicBool,
+) -> Finished {
+    let waypoints = experiment
+        .waypoints
+        .as_ref()
+        .map_or(0, |(_, w)| w.points().len());
+    let mut summariser = Summariser::new(experiment.controller.stack(), waypoints);
+    let (sender, records) = mpsc::sync_channel(RECORDS_WAITING);
+    let mut written = Ok(());
+    let ended = thread::scope(|scope| {
+        let driver = scope.spawn(move || {
+            let real_time = arm.is_real_time();
+            run::run(
+                experiment,
+                arm,
+                &mut |record| hand_over(&sender, record, real_time),
+                stop,
+            )
+        });
+        for record in records {
+            if written.is_ok() {
+                written = log.write(&record);
+                if written.is_err() {
+                    stop.store(true, Ordering::Relaxed);
+                }
+            }
+            summariser.take(&record);
+            progress.show(&record, summariser.present_mode());
+        }
+        match driver.join() {
+            Ok(ended) => ended,
+            Err(panic) => std::panic::resume_unwind(panic),
+        }
+    });
+    progress.finish();
+    Finished {
+        ended,
+        summariser,
+        log: written.and_then(|()| log.finish()),
+    }
+}
+
+/// Hands a record to the log. An arm that moves on its own is never kept waiting.
+fn hand_over(sender: &SyncSender<Record>, record: Record, real_time: bool) -> Result<(), ArmError> {
+    let closed = || ArmError::new("log-closed", "the log takes no more records");
+    if !real_time {
+        return sender.send(record).map_err(|_| closed());
+    }
+    sender.try_send(record).map_err(|error| match error {
+        TrySendError::Full(_) => ArmError::new(
+            "log-overrun",
+            format!("the log fell {RECORDS_WAITING} records behind: is the disk too slow?"),
+        ),
+        TrySendError::Disconnected(_) => closed(),
+    })
+}
+
+/// Summary, report, the last words and the exit status.
+fn finish(
+    arguments: &RunArguments,
+    out: &Path,
+    settings: Settings,
+    finished: Finished,
+) -> Result<ExitCode, Failure> {
+    let Finished {
+        ended,
+        summariser,
+        log,
+    } = finished;
+    let mut summary = summariser.finish(&ended, settings, env!("CARGO_PKG_VERSION"));
+    if let Err(error) = &log {
+        summary.outcome = Outcome::Fault {
+            name: "log-failed".to_owned(),
+            detail: error.to_string(),
+        };
+    }
+    let written =
+        write_summary(out, &summary).and_then(|()| report::write(out).map_err(Failure::run));
+    if !arguments.quiet {
+        super::print(&present::summary(&summary, &ended.experiment))?;
+    }
+    let report = match (log, written) {
+        (Err(error), _) => return Err(Failure::run(error)),
+        (Ok(()), written) => written?,
+    };
+    if !arguments.quiet {
+        super::print(&format!("report: {}\n", report.display()))?;
+    }
+    match summary.outcome {
+        Outcome::Completed => Ok(ExitCode::SUCCESS),
+        Outcome::Interrupted => Ok(ExitCode::from(INTERRUPTED)),
+        Outcome::Fault { name, detail } => Err(Failure::run(format!("{name}: {detail}"))),
+    }
+}
+
+fn write_summary(out: &Path, summary: &Summary) -> Result<(), Failure> {
+    let path = out.join("summary.json");
+    let text = serde_json::to_string_pretty(summary).map_err(Failure::run)?;
+    fs::write(&path, text + "\n")
+        .map_err(|error| Failure::run(format!("cannot write {}: {error}", path.display())))
+}

@@ -1,0 +1,250 @@
+//! What `conik run` says on the terminal: a heading before, a summary after.
+
+use conik_cli::report::units::{limit, optional, quantity};
+use conik_sim::experiment::Experiment;
+use conik_sim::scenario::{Choice, GoalConfig, Scenario, TaskConfig};
+use conik_sim::summary::{Outcome, Property, Summary};
+
+/// Two lines: what is run, on what, and how.
+pub fn heading(scenario: &Scenario, arm: &str) -> String {
+    let control = &scenario.control;
+    let title = scenario.title.as_deref().unwrap_or("(no title)");
+    format!(
+        "{title}\n{} on {arm}: {} s at {} Hz, rule {}, border {}, recursion {}\n",
+        scenario.robot.model,
+        control.duration_s,
+        control.rate_hz,
+        control.mode_rule.name(),
+        control.border.name(),
+        control.recursion.name(),
+    )
+}
+
+/// What became of the run.
+pub fn summary(summary: &Summary, experiment: &Experiment) -> String {
+    [
+        outcome(summary),
+        waypoints(summary),
+        tasks(summary),
+        properties(summary),
+        limits(summary, experiment),
+        machine(summary),
+    ]
+    .into_iter()
+    .filter(|part| !part.is_empty())
+    .collect::<Vec<_>>()
+    .join("\n")
+}
+
+fn outcome(summary: &Summary) -> String {
+    let at = summary.ended_at_s;
+    match &summary.outcome {
+        Outcome::Completed => String::new(),
+        Outcome::Interrupted => {
+            format!("\nstopped by hand at {at} s; the arm was brought to a stop first\n")
+        }
+        Outcome::Fault { name, .. } => format!("\nstopped at {at} s by a fault: {name}\n"),
+    }
+}
+
+fn waypoints(summary: &Summary) -> String {
+    summary
+        .waypoints_reached_s
+        .iter()
+        .enumerate()
+        .map(|(i, reached)| match reached {
+            Some(t_s) => format!("  waypoint {}  reached at {t_s} s\n", i + 1),
+            None => format!("  waypoint {}  not reached\n", i + 1),
+        })
+        .collect()
+}
+
+/// One line per task, in the order of priority.
+fn tasks(summary: &Summary) -> String {
+    let mut rows =
+        vec![["task", "goal", "result", "inside since", "active for"].map(str::to_owned)];
+    for task in &summary.settings.scenario.tasks {
+        rows.push(task_row(summary, task));
+    }
+    table(&rows)
+}
+
+fn task_row(summary: &Summary, task: &TaskConfig) -> [String; 5] {
+    let unit = summary
+        .settings
+        .units
+        .get(&task.name)
+        .map_or("", String::as_str);
+    let result = summary.tasks.get(&task.name).cloned().unwrap_or_default();
+    let goal = match &task.goal {
+        GoalConfig::Waypoints { waypoints_m, .. } => match waypoints_m.len() {
+            1 => "1 waypoint".to_owned(),
+            count => format!("{count} waypoints"),
+        },
+        GoalConfig::Desired { desired, .. } => {
+            let values: Vec<String> = desired.iter().map(|value| limit(*value, unit)).collect();
+            format!("= {}", values.join(", "))
+        }
+        GoalConfig::Set { min, max, .. } => match (min, max) {
+            (Some(min), Some(max)) => format!("{} … {}", limit(*min, "-"), limit(*max, unit)),
+            (Some(min), None) => format!("≥ {}", limit(*min, unit)),
+            (None, Some(max)) => format!("≤ {}", limit(*max, unit)),
+            (None, None) => "anything".to_owned(),
+        },
+    };
+    match result.worst_violation {
+        Some(worst) => [
+            task.name.clone(),
+            goal,
+            match worst {
+                0.0 => "never outside".to_owned(),
+                worst => format!("at most {} outside", quantity(worst, unit)),
+            },
+            match result.entered_set_s {
+                Some(0.0) => "the start".to_owned(),
+                Some(t_s) => format!("{t_s} s"),
+                None => "never".to_owned(),
+            },
+            format!("{:.2} s", result.active_s.unwrap_or(0.0)),
+        ],
+        None => [
+            task.name.clone(),
+            goal,
+            format!("{} off at the end", optional(result.final_error, unit)),
+            String::new(),
+            String::new(),
+        ],
+    }
+}
+
+/// The five properties with verdicts.
+fn properties(summary: &Summary) -> String {
+    let properties = &summary.properties;
+    let high_priority_holds = [
+        &properties.inside_stays,
+        &properties.outside_never_worse,
+        &properties.entered_stays,
+    ]
+    .iter()
+    .all(|property| property.holds);
+    let mut text = "  the five properties of Section VI of the paper, to 1e-6\n".to_owned();
+    for (sentence, property, observation) in [
+        (
+            "1  equality tasks converge",
+            &properties.equality_converges,
+            true,
+        ),
+        (
+            "2  high-priority sets that hold at the start stay",
+            &properties.inside_stays,
+            false,
+        ),
+        (
+            "3  high-priority sets outside never get worse",
+            &properties.outside_never_worse,
+            false,
+        ),
+        (
+            "4  high-priority sets once entered stay",
+            &properties.entered_stays,
+            false,
+        ),
+        (
+            "5  low-priority sets stay (no guarantee)",
+            &properties.low_priority_excess,
+            true,
+        ),
+    ] {
+        let verdict = match (property.holds, observation) {
+            (true, _) => "holds",
+            (false, true) => "not here",
+            (false, false) => "broken",
+        };
+        text += &format!(
+            "  {sentence:<52}{verdict:<10}{}\n",
+            worst(summary, property)
+        );
+    }
+    if !high_priority_holds {
+        text += "  border `freeze` promises nothing between samples: such dips are of the order of one \
+                 period's motion\n";
+    }
+    text
+}
+
+fn worst(summary: &Summary, property: &Property) -> String {
+    let (Some(task), Some(at_s)) = (&property.task, property.at_s) else {
+        return String::new();
+    };
+    let unit = summary.settings.units.get(task).map_or("", String::as_str);
+    format!("{} in {task} at {at_s} s", quantity(property.worst, unit))
+}
+
+fn limits(summary: &Summary, experiment: &Experiment) -> String {
+    let period = 1.0 / experiment.controller.settings().rate_hz;
+    let mut text = String::new();
+    if summary.speed_limited_ticks > 0 {
+        text += &format!(
+            "  joint speed limits scaled the velocity for {:.3} s\n",
+            summary.speed_limited_ticks as f64 * period
+        );
+    }
+    if summary.no_mode_ticks > 0 {
+        text += &format!(
+            "  for {:.3} s no allowed mode kept every set, and the arm stood still: does `exclusive` \
+             name sets that can be at their border together?\n",
+            summary.no_mode_ticks as f64 * period
+        );
+    }
+    text
+}
+
+fn machine(summary: &Summary) -> String {
+    let time = &summary.step_time_us;
+    let mut text = format!(
+        "  {} mode changes; a step takes {:.2} µs (99 % below {:.2}, longest {:.0})\n",
+        summary.modes.len().saturating_sub(1),
+        time.median,
+        time.p99,
+        time.max
+    );
+    if let Some(tracking) = &summary.tracking {
+        let (joint, max) = tracking
+            .max_rad
+            .iter()
+            .copied()
+            .enumerate()
+            .max_by(|a, b| a.1.total_cmp(&b.1))
+            .unwrap_or((0, 0.0));
+        let rms = tracking.rms_rad.get(joint).copied().unwrap_or(0.0);
+        text += &format!(
+            "  the arm followed within {} (joint {}, root mean square {}); {} cycles missed\n",
+            quantity(max, "rad"),
+            joint + 1,
+            quantity(rms, "rad"),
+            summary.deadline_misses
+        );
+    }
+    text
+}
+
+/// Columns side by side, the first row a heading.
+fn table<const N: usize>(rows: &[[String; N]]) -> String {
+    let width = |column: usize| {
+        rows.iter()
+            .map(|row| row[column].chars().count())
+            .max()
+            .unwrap_or(0)
+    };
+    let widths: [usize; N] = std::array::from_fn(width);
+    let mut text = String::new();
+    for row in rows {
+        let mut line = String::from(" ");
+        for (cell, width) in row.iter().zip(widths) {
+            line += &format!(" {cell:<width$} ");
+        }
+        text += line.trim_end();
+        text.push('\n');
+    }
+    text
+}

@@ -1,0 +1,125 @@
+//! The progress line of a run: time, mode, active sets, distance to go.
+
+use std::io::IsTerminal;
+use std::time::{Duration, Instant};
+
+use conik_sim::experiment::Experiment;
+use conik_sim::record::Record;
+use conik_sim::run::Columns;
+use conik_sim::summary::ModeChange;
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+
+/// Between two updates of the line.
+const EVERY: Duration = Duration::from_millis(66);
+
+/// Between two lines where there is no terminal: a log file should show that the run goes on.
+const EVERY_WITHOUT_TERMINAL: Duration = Duration::from_secs(5);
+
+/// Shows how far a run is, on standard error.
+#[derive(Debug)]
+pub struct Progress {
+    /// `None` under `--quiet`.
+    bar: Option<ProgressBar>,
+    is_terminal: bool,
+    last: Instant,
+    duration_s: f64,
+    /// Where in a record the error of the task at hand stands, and what to call its goal.
+    to_go: Option<(usize, &'static str)>,
+    waypoints: usize,
+}
+
+impl Progress {
+    /// For a run of this experiment.
+    pub fn new(experiment: &Experiment, quiet: bool) -> Self {
+        let stack = experiment.controller.stack();
+        let names = Columns::new(stack).names(stack);
+        let error_of = |name: &str| {
+            let column = format!("{name}_error");
+            names.iter().position(|name| *name == column)
+        };
+        let first_equality = stack.iter().find(|(_, level)| level.interval().is_none());
+        let to_go = match (&experiment.waypoints, first_equality) {
+            (Some((task, _)), _) => error_of(stack[*task].name()).map(|column| (column, "m")),
+            (None, Some((_, level))) => {
+                error_of(level.name()).map(|column| (column, level.task().unit()))
+            }
+            (None, None) => None,
+        };
+        let is_terminal = std::io::stderr().is_terminal();
+        let bar = (!quiet).then(|| {
+            let bar = ProgressBar::with_draw_target(
+                Some(experiment.last_tick),
+                if is_terminal {
+                    ProgressDrawTarget::stderr()
+                } else {
+                    ProgressDrawTarget::hidden()
+                },
+            );
+            // A template that is wrong shows a plain bar.
+            if let Ok(style) = ProgressStyle::with_template("{bar:24} {wide_msg}") {
+                bar.set_style(style.progress_chars("━╸─"));
+            }
+            bar
+        });
+        Self {
+            bar,
+            is_terminal,
+            last: Instant::now(),
+            duration_s: experiment.last_tick as f64 / experiment.controller.settings().rate_hz,
+            to_go,
+            waypoints: experiment
+                .waypoints
+                .as_ref()
+                .map_or(0, |(_, w)| w.points().len()),
+        }
+    }
+
+    /// Shows the tick if it is time to.
+    pub fn show(&mut self, record: &Record, mode: Option<&ModeChange>) {
+        let Some(bar) = &self.bar else { return };
+        let every = if self.is_terminal {
+            EVERY
+        } else {
+            EVERY_WITHOUT_TERMINAL
+        };
+        if self.last.elapsed() < every {
+            return;
+        }
+        self.last = Instant::now();
+        let line = self.line(record, mode);
+        if self.is_terminal {
+            bar.set_position(record.tick);
+            bar.set_message(line);
+        } else {
+            eprintln!("{line}");
+        }
+    }
+
+    fn line(&self, record: &Record, mode: Option<&ModeChange>) -> String {
+        let mut line = format!("{:6.2} of {} s", record.t_s, self.duration_s);
+        if let Some(mode) = mode {
+            let number = mode
+                .mode
+                .map_or("–".to_owned(), |number| number.to_string());
+            let active = match mode.active.as_slice() {
+                [] => "no set active".to_owned(),
+                names => names.join(" + "),
+            };
+            line += &format!("  mode {number}: {active}");
+        }
+        if let Some((column, unit)) = self.to_go {
+            line += &format!("  {:.3} {unit} to go", record.task_values[column]);
+            if self.waypoints > 1 {
+                line += &format!(" to waypoint {} of {}", record.waypoint + 1, self.waypoints);
+            }
+        }
+        line
+    }
+
+    /// Takes the line away.
+    pub fn finish(&self) {
+        if let Some(bar) = &self.bar {
+            bar.finish_and_clear();
+        }
+    }
+}
