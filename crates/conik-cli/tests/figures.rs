@@ -80,7 +80,7 @@ fn each_panel_shows_what_it_is_for() {
         "max 0.2622",
         "distance [m]",
         "view error [-]",
-        "entered 1.34 s",
+        "entered 1.344\u{a0}s",
     ] {
         assert!(sets.contains(label), "sets: {label}");
         assert!(all.contains(label), "figure 4: {label}");
@@ -122,8 +122,8 @@ fn strange_runs_are_drawn_too() {
 #[test]
 fn a_run_that_ended_early_says_so() {
     for (name, word) in [
-        ("interrupted", "interrupted at 3.99 s"),
-        ("fault", "fault: link-lost at 3.99 s"),
+        ("interrupted", "interrupted at 3.992\u{a0}s"),
+        ("fault", "fault: link-lost at 3.992\u{a0}s"),
     ] {
         let (_, run) = strange_runs()
             .into_iter()

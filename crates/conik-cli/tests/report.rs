@@ -21,7 +21,7 @@ fn the_page_tells_the_run_in_the_papers_order() {
     let order = [
         "<h1>An invented run</h1>",
         "Completed",
-        "Waypoint 1 reached at 0.8 s, waypoint 2 reached at 1.8 s.",
+        "Waypoint 1 reached at 0.8\u{a0}s, waypoint 2 reached at 1.8\u{a0}s.",
         "Path of the tool",
         "Mode over time",
         "Set-based tasks and their limits",

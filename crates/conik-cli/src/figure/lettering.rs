@@ -14,7 +14,7 @@ pub const BOLD: f64 = 1.1;
 fn em(character: char) -> f64 {
     match character {
         'i' | 'j' | 'l' | '\'' | '|' => 0.23,
-        ' ' | '.' | ',' | ':' | ';' | '/' | 'I' | 't' | 'f' | '[' | ']' | '!' => 0.28,
+        ' ' | '\u{a0}' | '.' | ',' | ':' | ';' | '/' | 'I' | 't' | 'f' | '[' | ']' | '!' => 0.28,
         'r' | '-' | '(' | ')' | '⁻' | '⁰'..='⁹' | '¹' | '²' | '³' => 0.34,
         's' | 'c' | 'k' | 'v' | 'x' | 'y' | 'z' => 0.5,
         'm' | 'M' => 0.84,
@@ -90,9 +90,9 @@ pub fn power_of_ten(exponent: i32) -> String {
     format!("10{}", raised.collect::<String>())
 }
 
-/// A time [s], to the hundredth.
+/// A time [s], to the millisecond; it does not break across lines.
 pub fn seconds(t_s: f64) -> String {
-    format!("{} s", trim_zeros(&format!("{t_s:.2}")))
+    format!("{}\u{a0}s", trim_zeros(&format!("{t_s:.3}")))
 }
 
 fn trim_zeros(text: &str) -> &str {

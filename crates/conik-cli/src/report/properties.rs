@@ -54,7 +54,7 @@ pub fn section(run: &Run) -> String {
         .map(|(nth, (words, property, force))| row(run, nth + 1, words, property, force))
         .collect();
     format!(
-        "<section>\n<h2>The five properties</h2>\n<div class=\"table properties\"><table>\n<thead><tr>\
+        "<section>\n<h2>The five properties</h2>\n<div class=\"table properties\" tabindex=\"0\"><table>\n<thead><tr>\
          <th scope=\"col\">#</th><th scope=\"col\">Property</th><th scope=\"col\">Verdict</th>\
          <th scope=\"col\" class=\"number\">Worst</th><th scope=\"col\" class=\"number\">When</th>\
          <th scope=\"col\">Task</th></tr></thead>\n<tbody>\n{body}</tbody>\n</table></div>\n\

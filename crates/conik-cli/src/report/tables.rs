@@ -187,7 +187,7 @@ fn table(columns: &[(&str, bool)], body: &str) -> String {
         let _ = write!(head, "<th scope=\"col\"{class}>{name}</th>");
     }
     format!(
-        "<div class=\"table\"><table>\n<thead><tr>{head}</tr></thead>\n<tbody>\n{body}</tbody>\n\
+        "<div class=\"table\" tabindex=\"0\"><table>\n<thead><tr>{head}</tr></thead>\n<tbody>\n{body}</tbody>\n\
          </table></div>\n"
     )
 }

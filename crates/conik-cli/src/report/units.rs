@@ -22,7 +22,7 @@ pub fn quantity(value: f64, unit: &str) -> String {
     if shown.is_empty() {
         text
     } else {
-        format!("{text} {shown}")
+        format!("{text}\u{a0}{shown}")
     }
 }
 
@@ -32,7 +32,7 @@ pub fn limit(value: f64, unit: &str) -> String {
     if unit == "-" {
         text
     } else {
-        format!("{text} {unit}")
+        format!("{text}\u{a0}{unit}")
     }
 }
 
@@ -57,9 +57,9 @@ mod tests {
             (3.1e-4, "rad", "310 µrad"),
             (f64::NAN, "m", "–"),
         ] {
-            assert_eq!(quantity(value, unit), text);
+            assert_eq!(quantity(value, unit), text.replace(' ', "\u{a0}"));
         }
         assert_eq!(limit(0.2622, "-"), "0.2622");
-        assert_eq!(limit(0.18, "m"), "0.18 m");
+        assert_eq!(limit(0.18, "m"), "0.18\u{a0}m");
     }
 }

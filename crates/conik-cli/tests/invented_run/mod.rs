@@ -189,7 +189,8 @@ impl Invention {
             });
         }
         if self.has_view {
-            tasks.push(TaskConfig {
+            // First in the list, so that a figure that shows it last has moved it there.
+            let view = TaskConfig {
                 name: "view".into(),
                 kind: TaskKind::FieldOfView {
                     direction: [1.0, 0.0, 0.0],
@@ -199,7 +200,8 @@ impl Invention {
                     max: Some(0.2622),
                     gain_per_s: Some(1.0),
                 },
-            });
+            };
+            tasks.insert(0, view);
         }
         tasks
     }
