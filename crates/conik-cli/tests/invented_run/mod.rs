@@ -288,6 +288,7 @@ impl Invention {
                 rms_rad: vec![1e-4; self.joints],
             }),
             speed_limited_ticks: 0,
+            no_mode_ticks: 0,
         }
     }
 }
