@@ -1,0 +1,89 @@
+//! A step: one command, its name for people, and what it needs.
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, ExitCode};
+use std::time::Instant;
+
+use crate::programs::Program;
+
+/// One command of a task.
+pub struct Step {
+    /// What it checks.
+    pub name: &'static str,
+    /// The command and its arguments.
+    pub command: Vec<&'static str>,
+    /// The folder to run in, from the root of the repository. Where it is missing, the part of the
+    /// project that the step checks is missing, and the step is skipped.
+    pub folder: &'static str,
+    /// Environment variables to set.
+    pub environment: Vec<(&'static str, &'static str)>,
+    /// Programs that must be there.
+    pub needs: Vec<Program>,
+}
+
+impl Step {
+    /// A step in the root of the repository that needs nothing but Rust.
+    pub fn cargo(name: &'static str, arguments: &[&'static str]) -> Self {
+        let mut command = vec!["cargo"];
+        command.extend(arguments);
+        Self {
+            name,
+            command,
+            folder: ".",
+            environment: Vec::new(),
+            needs: Vec::new(),
+        }
+    }
+}
+
+/// Runs the steps in order and stops at the first that fails.
+pub fn run(steps: &[Step]) -> ExitCode {
+    let begin = Instant::now();
+    for (i, step) in steps.iter().enumerate() {
+        println!("[{}/{}] {}", i + 1, steps.len(), step.name);
+        let folder = root().join(step.folder);
+        if !folder.is_dir() {
+            println!(
+                "      skipped: there is no {}/ in this version",
+                step.folder
+            );
+            continue;
+        }
+        if let Err(reason) = step.needs.iter().try_for_each(Program::provide) {
+            eprintln!("{reason}");
+            return ExitCode::FAILURE;
+        }
+        let started = Instant::now();
+        let status = Command::new(step.command[0])
+            .args(&step.command[1..])
+            .envs(step.environment.iter().copied())
+            .current_dir(&folder)
+            .status();
+        let line = step.command.join(" ");
+        match status {
+            Ok(status) if status.success() => {
+                println!("      done in {:.0} s", started.elapsed().as_secs_f64());
+            }
+            Ok(_) => {
+                eprintln!(
+                    "failed: {}\nrepeat with, in {}: {line}",
+                    step.name,
+                    folder.display()
+                );
+                return ExitCode::FAILURE;
+            }
+            Err(error) => {
+                eprintln!("failed: {}: cannot start `{line}`: {error}", step.name);
+                return ExitCode::FAILURE;
+            }
+        }
+    }
+    println!("all steps done in {:.0} s", begin.elapsed().as_secs_f64());
+    ExitCode::SUCCESS
+}
+
+/// The root of the repository.
+fn root() -> PathBuf {
+    let crate_folder = Path::new(env!("CARGO_MANIFEST_DIR"));
+    crate_folder.parent().unwrap_or(crate_folder).to_owned()
+}

@@ -1,0 +1,72 @@
+//! `cargo xtask test`: what has to hold before a change lands.
+
+use crate::programs::{CHROMIUM, CLIPPY, NODE, PYTHON, RUSTFMT};
+use crate::step::Step;
+
+/// Formatting, lints and Rust tests: the quick loop.
+pub fn rust() -> Vec<Step> {
+    vec![
+        Step {
+            needs: vec![RUSTFMT],
+            ..Step::cargo("formatting", &["fmt", "--all", "--check"])
+        },
+        Step {
+            needs: vec![CLIPPY],
+            ..Step::cargo(
+                "lints",
+                &[
+                    "clippy",
+                    "--workspace",
+                    "--all-targets",
+                    "--",
+                    "--deny",
+                    "warnings",
+                ],
+            )
+        },
+        Step::cargo("Rust tests", &["test", "--workspace"]),
+    ]
+}
+
+/// Everything.
+pub fn all() -> Vec<Step> {
+    let mut steps = rust();
+    steps.extend([
+        Step::cargo(
+            "the core without the standard library",
+            &[
+                "check",
+                "--package",
+                "conik",
+                "--no-default-features",
+                "--features",
+                "libm",
+            ],
+        ),
+        Step {
+            environment: vec![("RUSTDOCFLAGS", "--deny warnings")],
+            ..Step::cargo(
+                "documentation",
+                &["doc", "--workspace", "--no-deps", "--quiet"],
+            )
+        },
+        Step {
+            folder: "crates/conik-py",
+            needs: vec![PYTHON],
+            ..command("Python package", &["python3", "tests/in_environment.py"])
+        },
+        Step {
+            folder: "viewer/src",
+            needs: vec![NODE, CHROMIUM],
+            ..command("page", &["npm", "--prefix", "..", "run", "test:all"])
+        },
+    ]);
+    steps
+}
+
+fn command(name: &'static str, words: &[&'static str]) -> Step {
+    Step {
+        command: words.to_vec(),
+        ..Step::cargo(name, &[])
+    }
+}
