@@ -1,4 +1,4 @@
-//! One file per command. Each returns the exit status, or a [`Failure`](crate::failure::Failure).
+//! One file per command. Each returns the exit status, or a [`Failure`].
 
 pub mod check;
 pub mod completions;
