@@ -134,6 +134,7 @@ impl Emulator {
                 Pace::Lockstep => Duration::from_secs(20),
             },
             program_timeout: Duration::from_secs(20),
+            stop_timeout: Duration::from_secs(20),
             ..UrConfig::new(host)
         }
     }
