@@ -173,7 +173,7 @@ fn first_difference(a: &str, b: &str) -> Option<usize> {
 }
 
 #[cfg(test)]
-mod tests {
+pub(crate) mod tests {
     use super::*;
 
     pub(crate) const PROGRAM: ServoProgram = ServoProgram {

@@ -1,6 +1,7 @@
 //! One connection to a controller: handshake, servo program, references, stop.
 
 use super::config::UrConfig;
+use super::connect::connect;
 use super::fault;
 use super::guard::Guard;
 use super::plan;
@@ -11,7 +12,7 @@ use crate::status::Status;
 use crate::wire::Value;
 use conik_sim::arm::{ArmError, Feedback, Reference};
 use std::io::Write;
-use std::net::{TcpStream, ToSocketAddrs};
+use std::net::TcpStream;
 use std::time::{Duration, Instant};
 
 /// A connection on which the servo program runs.
@@ -250,35 +251,6 @@ impl Link {
             .send(&values)
             .map_err(|error| fault::of_session(&error))
     }
-}
-
-fn connect(config: &UrConfig, port: u16) -> Result<TcpStream, ArmError> {
-    let failed = |error: &dyn std::fmt::Display| {
-        let detail = format!(
-            "no connection to {}:{port}: {error}; is the controller on, the address right, and the \
-             port not blocked?",
-            config.host
-        );
-        ArmError::new(fault::CONNECT_FAILED, detail)
-    };
-    let addresses = (config.host.as_str(), port)
-        .to_socket_addrs()
-        .map_err(|error| failed(&error))?;
-    let mut last = failed(&"the name has no address");
-    for address in addresses {
-        match TcpStream::connect_timeout(&address, config.connect_timeout) {
-            Ok(stream) => {
-                stream
-                    .set_nodelay(true)
-                    .and_then(|()| stream.set_read_timeout(Some(config.link_timeout)))
-                    .and_then(|()| stream.set_write_timeout(Some(config.link_timeout)))
-                    .map_err(|error| failed(&error))?;
-                return Ok(stream);
-            }
-            Err(error) => last = failed(&error),
-        }
-    }
-    Err(last)
 }
 
 fn subscribe(

@@ -3,12 +3,14 @@
 //! | file | what it holds |
 //! |---|---|
 //! | `config` | where the controller is and how it is to be driven |
+//! | `connect` | TCP connections with time-outs |
 //! | `link` | one connection, from the handshake to the stop |
 //! | `plan` | what is settled before: rate, registers, program |
 //! | `guard` | the last check of a reference before it goes out |
 //! | `fault` | the names of all faults |
 
 pub mod config;
+mod connect;
 pub mod fault;
 mod guard;
 mod link;

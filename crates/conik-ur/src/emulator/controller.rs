@@ -1,12 +1,11 @@
 //! The emulated controller itself: clock, safety, program and arm. No threads, no sockets.
 
 use super::config::{EmulatorConfig, EmulatorError, Injection};
-use super::fields::{InputField, OutputField};
+use super::fields::InputField;
 use super::registers::Registers;
 use super::servo_program::{Motion, RunningProgram};
 use crate::program::ServoProgram;
 use crate::registers::JOINTS;
-use crate::status::{ROBOT_MODE_RUNNING, robot_bit, runtime_state, safety_bit};
 use crate::wire::Value;
 use conik::JointVec;
 use conik_sim::servo::{Servo, ServoModel};
@@ -15,15 +14,12 @@ use std::collections::VecDeque;
 /// The clock's reading at first [s]: clients take one below 40 s for a controller that still boots.
 const BOOTED_AT_S: f64 = 50.0;
 
-/// `robot_mode` of an arm without power.
-const ROBOT_MODE_POWER_OFF: i32 = 3;
-
 /// Lines that the log holds.
 const LOG_LINES: usize = 500;
 
 /// What keeps the arm from moving.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Safety {
+pub(super) enum Safety {
     Normal,
     ProtectiveStop,
     EmergencyStop,
@@ -40,14 +36,14 @@ pub(super) struct Controller {
     /// Control cycles at which the clock began to count; a restart moves it.
     clock_zero: u64,
     pub(super) registers: Registers,
-    servo: Servo,
+    pub(super) servo: Servo,
     /// Position and velocity one cycle ago: what the arm measures.
-    actual: (JointVec, JointVec),
+    pub(super) actual: (JointVec, JointVec),
     /// Target of the last `servoj`.
     servo_target: Option<[f64; JOINTS]>,
-    safety: Safety,
-    running: Option<RunningProgram>,
-    paused: bool,
+    pub(super) safety: Safety,
+    pub(super) running: Option<RunningProgram>,
+    pub(super) paused: bool,
     log: VecDeque<String>,
 }
 
@@ -207,61 +203,8 @@ impl Controller {
         self.registers.write_input(field, value, self.cycles);
     }
 
-    pub(super) fn output(&self, field: OutputField) -> Value {
-        match field {
-            OutputField::Timestamp => Value::Double(self.timestamp()),
-            OutputField::TargetQ => Value::Vector6d(six(self.servo.q())),
-            OutputField::TargetQd => Value::Vector6d(six(self.servo.qd())),
-            OutputField::TargetQdd => Value::Vector6d(six(self.servo.qdd())),
-            OutputField::ActualQ => Value::Vector6d(six(&self.actual.0)),
-            OutputField::ActualQd => Value::Vector6d(six(&self.actual.1)),
-            OutputField::RobotMode => Value::Int32(match self.safety {
-                Safety::EmergencyStop => ROBOT_MODE_POWER_OFF,
-                Safety::Normal | Safety::ProtectiveStop => ROBOT_MODE_RUNNING,
-            }),
-            OutputField::SafetyMode => Value::Int32(match self.safety {
-                Safety::Normal => 1,
-                Safety::ProtectiveStop => 3,
-                Safety::EmergencyStop => 7,
-            }),
-            OutputField::RuntimeState => Value::Uint32(match (&self.running, self.paused) {
-                (None, _) => runtime_state::STOPPED,
-                (Some(_), false) => runtime_state::PLAYING,
-                (Some(_), true) => runtime_state::PAUSED,
-            }),
-            OutputField::RobotStatusBits => Value::Uint32(self.robot_bits()),
-            OutputField::SafetyStatusBits => Value::Uint32(match self.safety {
-                Safety::Normal => safety_bit::NORMAL,
-                Safety::ProtectiveStop => {
-                    safety_bit::PROTECTIVE_STOP | safety_bit::STOPPED_DUE_TO_SAFETY
-                }
-                Safety::EmergencyStop => {
-                    safety_bit::ROBOT_EMERGENCY_STOP
-                        | safety_bit::EMERGENCY_STOP
-                        | safety_bit::STOPPED_DUE_TO_SAFETY
-                }
-            }),
-            OutputField::SpeedScaling | OutputField::TargetSpeedFraction => Value::Double(1.0),
-            OutputField::OutputInt(register) => Value::Int32(self.registers.output_int(register)),
-            // No program that runs here writes one.
-            OutputField::OutputDouble(_) => Value::Double(0.0),
-            OutputField::Input(field) => self.registers.input(field),
-        }
-    }
-
-    fn robot_bits(&self) -> u32 {
-        let power = match self.safety {
-            Safety::EmergencyStop => 0,
-            Safety::Normal | Safety::ProtectiveStop => robot_bit::POWER_ON,
-        };
-        match self.running {
-            Some(_) => power | robot_bit::PROGRAM_RUNNING,
-            None => power,
-        }
-    }
-
     /// A multiple of the cycle, so that clients may count cycles by it.
-    fn timestamp(&self) -> f64 {
+    pub(super) fn timestamp(&self) -> f64 {
         BOOTED_AT_S + (self.cycles - self.clock_zero) as f64 / self.rate_hz
     }
 
@@ -287,6 +230,103 @@ impl Controller {
     }
 }
 
-fn six(values: &JointVec) -> [f64; JOINTS] {
+pub(super) fn six(values: &JointVec) -> [f64; JOINTS] {
     std::array::from_fn(|joint| values[joint])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::emulator::config::Series;
+    use crate::emulator::fields::OutputField;
+    use crate::program::tests::PROGRAM;
+    use crate::registers::Command;
+
+    fn controller() -> Controller {
+        let config = EmulatorConfig::new(Series::Cb3, JointVec::zeros(JOINTS));
+        Controller::new(&config).unwrap()
+    }
+
+    fn give(controller: &mut Controller, counter: i32, q: f64) {
+        controller.write_input(InputField::Int(24), Value::Int32(counter));
+        controller.write_input(InputField::Int(25), Value::Int32(Command::Servo as i32));
+        controller.write_input(InputField::Double(24), Value::Double(q));
+    }
+
+    fn last_line(controller: &Controller) -> &str {
+        controller.log().last().unwrap()
+    }
+
+    #[test]
+    fn the_watchdog_stops_a_program_whose_counter_nobody_writes() {
+        let mut controller = controller();
+        let patient = ServoProgram {
+            extrapolated_cycles: 1000,
+            watchdog_hz: 10.0,
+            ..PROGRAM
+        };
+        controller.upload(&patient.text().unwrap()).unwrap();
+        give(&mut controller, 1, 0.0);
+        // 10 Hz at 125 Hz: twelve and a half cycles.
+        for _ in 0..12 {
+            controller.cycle();
+        }
+        assert!(controller.program_runs());
+        controller.cycle();
+        assert!(!controller.program_runs());
+        assert!(last_line(&controller).contains("watchdog"));
+    }
+
+    #[test]
+    fn the_clock_reads_multiples_of_the_cycle_from_above_40_s() {
+        let mut controller = controller();
+        for cycle in 1..=1000 {
+            controller.cycle();
+            let timestamp = Value::Double(50.0 + f64::from(cycle) / 125.0);
+            assert_eq!(controller.output(OutputField::Timestamp), timestamp);
+        }
+    }
+
+    #[test]
+    fn a_step_that_is_too_large_stops_the_arm_and_it_stays_stopped() {
+        let mut controller = controller();
+        controller.upload(&PROGRAM.text().unwrap()).unwrap();
+        give(&mut controller, 1, 0.0);
+        controller.cycle();
+        give(&mut controller, 2, 0.11);
+        controller.cycle();
+        assert!(last_line(&controller).contains("joint 1 by 0.11 rad"));
+        let refused = controller.upload(&PROGRAM.text().unwrap()).unwrap_err();
+        assert!(refused.contains("stopped for safety"));
+        for counter in 3..50 {
+            give(&mut controller, counter, 0.11);
+            controller.cycle();
+        }
+        let still = Value::Vector6d([0.0; 6]);
+        assert_eq!(controller.output(OutputField::TargetQ), still);
+    }
+
+    #[test]
+    fn a_finite_but_absurd_reference_makes_a_protective_stop() {
+        let mut controller = controller();
+        controller.upload(&PROGRAM.text().unwrap()).unwrap();
+        give(&mut controller, 1, f64::MAX);
+        controller.cycle();
+        assert!(last_line(&controller).contains("protective stop"));
+        let still = Value::Vector6d([0.0; 6]);
+        assert_eq!(controller.output(OutputField::TargetQ), still);
+    }
+
+    #[test]
+    fn measured_joints_are_one_cycle_behind_the_commanded_ones() {
+        let mut controller = controller();
+        controller.upload(&PROGRAM.text().unwrap()).unwrap();
+        let mut commanded = controller.output(OutputField::TargetQ);
+        for counter in 1..20 {
+            give(&mut controller, counter, 0.01 * f64::from(counter));
+            controller.cycle();
+            assert_eq!(controller.output(OutputField::ActualQ), commanded);
+            commanded = controller.output(OutputField::TargetQ);
+        }
+    }
 }

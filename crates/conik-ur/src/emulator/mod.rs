@@ -4,6 +4,7 @@
 //! |---|---|
 //! | `config` | which controller is emulated, and what can happen to it |
 //! | `controller` | clock, safety, program and arm, without threads or sockets |
+//! | `outputs` | what the controller says of itself |
 //! | `servo_program` | the servo program as a state machine |
 //! | `registers`, `fields` | general-purpose registers; fields by name |
 //! | `rtde`, `script_port` | the two protocols, without sockets |
@@ -18,6 +19,7 @@ mod config;
 mod controller;
 mod fields;
 mod outbox;
+mod outputs;
 mod registers;
 mod rtde;
 mod script_port;
@@ -132,6 +134,7 @@ impl Emulator {
                 Pace::Lockstep => Duration::from_secs(20),
             },
             program_timeout: Duration::from_secs(20),
+            stop_timeout: Duration::from_secs(20),
             ..UrConfig::new(host)
         }
     }
@@ -208,4 +211,40 @@ fn check(config: &EmulatorConfig) -> Result<(), EmulatorError> {
 /// Locks even if a thread panicked while it held the lock: the emulator goes on for the others.
 fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::net::TcpStream;
+
+    /// Every thread holds a share of the world for as long as it lives.
+    #[test]
+    fn dropping_the_emulator_ends_all_its_threads() {
+        for pace in [Pace::WallTime, Pace::Lockstep] {
+            let config = EmulatorConfig {
+                pace,
+                ..EmulatorConfig::new(Series::E, JointVec::zeros(JOINTS))
+            };
+            let emulator = Emulator::start(config).unwrap();
+            let world = Arc::downgrade(&emulator.shared);
+            let clients = [emulator.rtde_port(), emulator.script_port()]
+                .map(|port| TcpStream::connect(("127.0.0.1", port)).unwrap());
+            while lock(&emulator.shared.world).connection_count() < clients.len() {
+                thread::yield_now();
+            }
+            drop(emulator);
+            assert_eq!(world.strong_count(), 0, "{pace:?}");
+        }
+    }
+
+    #[test]
+    fn real_ports_are_those_of_a_controller_moved_by_the_offset() {
+        let config = EmulatorConfig {
+            ports: Ports::Real { offset: 40_000 },
+            ..EmulatorConfig::new(Series::E, JointVec::zeros(JOINTS))
+        };
+        let error = Emulator::start(config).unwrap_err();
+        assert!(error.to_string().contains("port offset"), "{error}");
+    }
 }

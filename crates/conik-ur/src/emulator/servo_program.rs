@@ -147,20 +147,14 @@ impl RunningProgram {
 mod tests {
     use super::*;
     use crate::emulator::fields::InputField;
-    use crate::registers::RegisterBase;
+    use crate::program::tests::PROGRAM;
     use crate::wire::Value;
 
     fn begun(registers: &mut Registers, cycle_s: f64) -> RunningProgram {
         let program = ServoProgram {
-            session: 9,
-            cycle_s: 0.008,
-            lookahead_s: 0.1,
-            gain: 300.0,
             extrapolated_cycles: 3,
-            stop_deceleration: 4.0,
-            watchdog_hz: 10.0,
             patience_s: 0.1,
-            registers: RegisterBase::default(),
+            ..PROGRAM
         };
         RunningProgram::begin(program, cycle_s, registers)
     }
@@ -185,7 +179,7 @@ mod tests {
     fn nothing_moves_before_the_first_reference() {
         let mut registers = Registers::new();
         let mut running = begun(&mut registers, 0.008);
-        assert_eq!(registers.output_int(25), 9);
+        assert_eq!(registers.output_int(25), PROGRAM.session);
         for _ in 0..5 {
             assert_eq!(running.cycle(&mut registers), Motion::Rest);
         }

@@ -103,6 +103,11 @@ impl World {
         }
     }
 
+    #[cfg(test)]
+    pub(super) fn connection_count(&self) -> usize {
+        self.connections.len()
+    }
+
     /// Wakes every thread that waits for a client.
     pub(super) fn close(&mut self) {
         self.is_closing = true;

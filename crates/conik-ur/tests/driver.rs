@@ -1,0 +1,319 @@
+//! What the driver puts on the wire and how it takes what comes back, against a controller that
+//! only records.
+
+mod stub;
+
+use conik::JointVec;
+use conik_sim::arm::{Arm, ArmError, Reference};
+use conik_ur::driver::{UrArm, UrConfig};
+use std::time::Duration;
+use stub::{Behaviour, Change, Stub, Written};
+
+const RATE: f64 = 125.0;
+
+/// A guard against hanging only; no verdict depends on it.
+const HANG: Duration = Duration::from_secs(20);
+
+fn arm(stub: &Stub) -> UrArm {
+    UrArm::new(UrConfig {
+        rtde_port: stub.rtde_port,
+        script_port: stub.script_port,
+        link_timeout: HANG,
+        program_timeout: HANG,
+        stop_timeout: HANG,
+        ..UrConfig::new("127.0.0.1")
+    })
+}
+
+fn at(q: [f64; 6]) -> Reference {
+    Reference {
+        q: q.into(),
+        qd: JointVec::zeros(6),
+        qdd: JointVec::zeros(6),
+    }
+}
+
+/// References on a curve with irrational values, so that every bit of them counts.
+fn curve(q0: [f64; 6], count: u32) -> Vec<Reference> {
+    let value =
+        |tick: f64, joint: usize| q0[joint] + 0.05 * (0.05 * tick * (joint + 1) as f64).sin();
+    (0..count)
+        .map(|tick| {
+            let tick = f64::from(tick);
+            Reference {
+                q: std::array::from_fn::<_, 6, _>(|joint| value(tick, joint)).into(),
+                qd: std::array::from_fn::<_, 6, _>(|joint| {
+                    RATE * (value(tick + 0.5, joint) - value(tick - 0.5, joint))
+                })
+                .into(),
+                qdd: JointVec::zeros(6),
+            }
+        })
+        .collect()
+}
+
+fn run(arm: &mut UrArm, references: &[Reference]) -> Result<u64, ArmError> {
+    let mut missed = 0;
+    for reference in references {
+        missed += arm.next_cycle()?.missed_cycles;
+        arm.send(reference)?;
+    }
+    Ok(missed)
+}
+
+/// The references among what was written.
+fn references(written: &[Written]) -> Vec<&Written> {
+    written
+        .iter()
+        .filter(|package| package.command == 1)
+        .collect()
+}
+
+#[test]
+fn references_arrive_in_order_and_bit_by_bit() {
+    for byte_by_byte in [false, true] {
+        let behaviour = Behaviour {
+            byte_by_byte,
+            ..Behaviour::default()
+        };
+        let q0 = behaviour.q;
+        let count = if byte_by_byte { 50 } else { 2000 };
+        let curve = curve(q0, count);
+        let stub = Stub::start(behaviour);
+        let mut arm = arm(&stub);
+        assert_eq!(arm.start(RATE).unwrap(), q0.into());
+        assert_eq!(run(&mut arm, &curve).unwrap(), 0, "missed cycles");
+        arm.stop().unwrap();
+        arm.stop().unwrap();
+        let written = stub.written();
+        let arrived = references(&written);
+        assert_eq!(arrived.len(), curve.len());
+        for (number, (arrived, sent)) in (1..).zip(arrived.iter().zip(&curve)) {
+            assert_eq!(arrived.counter, number);
+            assert_eq!(arrived.q.map(f64::to_bits)[..], bits(&sent.q));
+            assert_eq!(arrived.qd.map(f64::to_bits)[..], bits(&sent.qd));
+        }
+        assert_eq!(written.last().unwrap().command, 2, "the last word is stop");
+    }
+}
+
+fn bits(values: &[f64]) -> Vec<u64> {
+    values.iter().map(|value| value.to_bits()).collect()
+}
+
+#[test]
+fn nothing_but_idle_is_sent_before_the_first_reference() {
+    let stub = Stub::start(Behaviour::default());
+    let q0 = Behaviour::default().q;
+    let mut arm = arm(&stub);
+    arm.start(RATE).unwrap();
+    drop(arm);
+    let written = stub.written();
+    // The stop may be said twice, before its effect is seen.
+    let stops = written.iter().position(|package| package.command == 2);
+    let (idle, stops) = written.split_at(stops.expect("a dropped arm is stopped"));
+    assert!(!idle.is_empty());
+    for package in idle {
+        assert_eq!((package.command, package.counter, package.q), (0, 0, q0));
+    }
+    assert!(stops.iter().all(|package| package.command == 2));
+}
+
+#[test]
+fn the_first_reference_away_from_the_arm_is_refused_and_nothing_is_sent() {
+    let stub = Stub::start(Behaviour::default());
+    let mut q = Behaviour::default().q;
+    q[1] += 0.05;
+    let mut arm = arm(&stub);
+    arm.start(RATE).unwrap();
+    arm.next_cycle().unwrap();
+    let fault = arm.send(&at(q)).unwrap_err();
+    assert_eq!(fault.name, "first-reference-away");
+    assert!(fault.detail.contains("joint 2 (shoulder)"), "{fault}");
+    assert_eq!(arm.send(&at(Behaviour::default().q)), Err(fault.clone()));
+    assert_eq!(arm.next_cycle(), Err(fault));
+    arm.stop().unwrap();
+    assert!(references(&stub.written()).is_empty());
+}
+
+#[test]
+fn a_reference_too_fast_is_refused_by_joint_value_and_limit() {
+    let stub = Stub::start(Behaviour::default());
+    let mut q = Behaviour::default().q;
+    let mut arm = arm(&stub);
+    arm.start(RATE).unwrap();
+    run(&mut arm, &[at(q)]).unwrap();
+    q[4] -= 0.032;
+    let fault = run(&mut arm, &[at(q)]).unwrap_err();
+    assert_eq!(fault.name, "reference-refused");
+    for part in ["joint 5 (wrist 2)", "4.000000 rad/s", "3.141593 rad/s"] {
+        assert!(fault.detail.contains(part), "{fault}");
+    }
+    drop(arm);
+    let written = stub.written();
+    assert_eq!(references(&written).len(), 1);
+    assert!(written.iter().all(|package| package.q != q));
+}
+
+#[test]
+fn no_number_that_is_not_finite_goes_out() {
+    for bad in [f64::NAN, f64::INFINITY] {
+        let stub = Stub::start(Behaviour::default());
+        let mut q = Behaviour::default().q;
+        q[0] = bad;
+        let mut arm = arm(&stub);
+        arm.start(RATE).unwrap();
+        let fault = run(&mut arm, &[at(q)]).unwrap_err();
+        assert_eq!(fault.name, "reference-refused");
+        drop(arm);
+        assert!(stub.written().iter().all(|package| {
+            package
+                .q
+                .iter()
+                .chain(&package.qd)
+                .all(|value| value.is_finite())
+        }));
+    }
+}
+
+/// Each way in which a controller can end a run, the fault's name, and whether the controller's
+/// program is over by then (the stop needs one package more if it is not).
+#[test]
+fn whatever_ends_a_run_is_latched_by_name_and_nothing_moves_the_arm_any_more() {
+    let cases: [(&str, Change); 14] = [
+        ("protective-stop", |o| o.safety_bits = 1 << 2 | 1 << 10),
+        ("emergency-stop", |o| o.safety_bits = 1 << 7 | 1 << 2),
+        ("emergency-stop", |o| o.safety_bits = 1 << 6),
+        ("emergency-stop", |o| o.safety_bits = 1 << 5),
+        ("safeguard-stop", |o| o.safety_bits = 1 | 1 << 4),
+        ("safety-fault", |o| o.safety_bits = 1 << 9),
+        ("safety-fault", |o| o.safety_bits = 0),
+        ("robot-not-running", |o| o.robot_mode = 5),
+        ("speed-slider", |o| o.speed_slider = 0.5),
+        ("program-stopped", |o| {
+            o.runtime_state = 1;
+            o.robot_bits = 1;
+        }),
+        ("program-stopped", |o| o.session += 1),
+        ("references-late", |o| o.phase = 4),
+        ("paused", |o| o.runtime_state = 4),
+        ("clock-jump", |o| o.timestamp = 41.0),
+    ];
+    for (name, change) in cases {
+        let behaviour = Behaviour {
+            after: Some((3, change)),
+            ..Behaviour::default()
+        };
+        let q = behaviour.q;
+        let stub = Stub::start(behaviour);
+        let mut arm = arm(&stub);
+        arm.start(RATE).unwrap();
+        let fault = run(&mut arm, &[at(q); 10]).unwrap_err();
+        assert_eq!(fault.name, name);
+        for _ in 0..3 {
+            assert_eq!(arm.send(&at(q)), Err(fault.clone()));
+            assert_eq!(arm.next_cycle(), Err(fault.clone()));
+        }
+        arm.stop().unwrap();
+        assert_eq!(arm.send(&at(q)), Err(fault.clone()), "after stop too");
+        let written = stub.written();
+        assert_eq!(references(&written).len(), 3, "{name}");
+        let after = written.iter().skip_while(|package| package.counter < 3);
+        assert!(after.skip(1).all(|package| package.command == 2), "{name}");
+    }
+}
+
+#[test]
+fn an_arm_that_may_not_move_is_not_started() {
+    // `after` waits for a reference, so the stub's own version and fields do here.
+    let old = Stub::start(Behaviour {
+        version: (3, 8),
+        ..Behaviour::default()
+    });
+    let fault = arm(&old).start(RATE).unwrap_err();
+    assert_eq!(fault.name, "controller-too-old");
+    assert!(fault.detail.contains("3.9"), "{fault}");
+    assert!(old.written().is_empty());
+
+    let wrong_rate = Stub::start(Behaviour::default());
+    let fault = arm(&wrong_rate).start(400.0).unwrap_err();
+    assert_eq!(fault.name, "rate-not-possible");
+    assert!(fault.detail.contains("500, 250"), "{fault}");
+    assert!(wrong_rate.written().is_empty());
+}
+
+#[test]
+fn a_register_in_use_is_named_with_the_cure() {
+    let types = format!("IN_USE,INT32{}", ",DOUBLE".repeat(12));
+    let stub = Stub::start(Behaviour {
+        input_types: Some(types),
+        ..Behaviour::default()
+    });
+    let fault = arm(&stub).start(RATE).unwrap_err();
+    assert_eq!(fault.name, "register-in-use");
+    for part in ["input_int_register_24", "fieldbus"] {
+        assert!(fault.detail.contains(part), "{fault}");
+    }
+    assert!(!fault.detail.contains("input_int_register_25"), "{fault}");
+}
+
+#[test]
+fn a_late_reader_takes_the_newest_package_and_counts_the_others() {
+    let behaviour = Behaviour {
+        packages_at_once: 3,
+        ..Behaviour::default()
+    };
+    let q = behaviour.q;
+    let stub = Stub::start(behaviour);
+    let mut arm = arm(&stub);
+    arm.start(RATE).unwrap();
+    let before = arm.status().unwrap().timestamp;
+    let mut missed = 0;
+    let mut cycles = 0;
+    let mut first = before;
+    for turn in 0..20 {
+        missed += arm.next_cycle().unwrap().missed_cycles;
+        if turn == 0 {
+            first = arm.status().unwrap().timestamp;
+        } else {
+            cycles += 1;
+        }
+        arm.send(&at(q)).unwrap();
+    }
+    // How many of the three are read at once is up to the network; none may go uncounted.
+    let elapsed = arm.status().unwrap().timestamp - first;
+    assert_eq!((elapsed * RATE).round(), (missed + cycles) as f64);
+    drop(arm);
+    stub.written();
+}
+
+#[test]
+fn one_reference_per_cycle() {
+    let stub = Stub::start(Behaviour::default());
+    let q = Behaviour::default().q;
+    let mut arm = arm(&stub);
+    assert_eq!(arm.next_cycle().unwrap_err().name, "not-started");
+    arm.start(RATE).unwrap();
+    assert_eq!(arm.start(RATE).unwrap_err().name, "already-started");
+    run(&mut arm, &[at(q)]).unwrap();
+    assert_eq!(arm.send(&at(q)).unwrap_err().name, "out-of-turn");
+    drop(arm);
+    assert_eq!(references(&stub.written()).len(), 1);
+}
+
+#[test]
+fn a_controller_that_is_not_there_is_a_fault_with_its_address() {
+    let port = std::net::TcpListener::bind("127.0.0.1:0")
+        .unwrap()
+        .local_addr()
+        .unwrap()
+        .port();
+    let mut arm = UrArm::new(UrConfig {
+        rtde_port: port,
+        ..UrConfig::new("127.0.0.1")
+    });
+    let fault = arm.start(RATE).unwrap_err();
+    assert_eq!(fault.name, "connect-failed");
+    assert!(fault.detail.contains(&port.to_string()), "{fault}");
+    arm.stop().unwrap();
+}
