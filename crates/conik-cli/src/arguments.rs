@@ -59,7 +59,7 @@ pub struct RunArguments {
     /// Run the emulator in lockstep, as fast as references are computed, not in wall time
     #[arg(long)]
     pub fast: bool,
-    /// Where to write the log, the summary and the report [default: out/<scenario name>]
+    /// Where to write the log, the summary and the report [default: `out/` and the name of the scenario file]
     #[arg(long, value_name = "DIR", value_hint = ValueHint::DirPath)]
     pub out: Option<PathBuf>,
     /// No progress line and no summary; errors are printed all the same
