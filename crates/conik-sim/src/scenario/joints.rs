@@ -49,13 +49,13 @@ impl Table<'_> {
         found: &mut Mistakes,
     ) -> Entry<usize> {
         self.entry(key, |value| {
-            let names = robot.map_or(&[][..], |robot| robot.joint_names);
+            let names = robot.map_or(&[][..], |robot| &robot.joint_names);
             if let Some(name) = value.toml.get_ref().as_str() {
                 // The names of an unknown robot's joints are unknown too; that is noted already.
                 robot?;
                 let index = names.iter().position(|joint| *joint == name);
                 if index.is_none() {
-                    let (what, help) = unknown_name(name, names.iter().copied());
+                    let (what, help) = unknown_name(name, names.iter().map(String::as_str));
                     found.add(value.span(), &*value.path, what, help);
                 }
                 return index.map(|index| index + 1);

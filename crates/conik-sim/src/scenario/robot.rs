@@ -23,7 +23,10 @@ pub(super) fn read_model(table: &Table, found: &mut Mistakes) -> Option<&'static
     };
     let robot = known_robots().iter().find(|robot| robot.name == model);
     if robot.is_none() {
-        let (what, help) = unknown_name(model, known_robots().iter().map(|robot| robot.name));
+        let (what, help) = unknown_name(
+            model,
+            known_robots().iter().map(|robot| robot.name.as_str()),
+        );
         let what = what.replace("unknown name", "unknown robot");
         found.add(
             table.span_of(&keys::MODEL),

@@ -1,25 +1,30 @@
 //! The robots that a scenario may name, and what its reader must know of them.
 
+use std::sync::LazyLock;
+
+use conik::Robot;
+
 /// What the reader of a scenario must know of a robot.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub struct RobotFacts {
     /// Name in the file.
-    pub name: &'static str,
-    /// Names of the movable joints, base to tool.
-    pub joint_names: &'static [&'static str],
+    pub name: String,
+    /// Names of the joints, base to tool.
+    pub joint_names: Vec<String>,
 }
+
+static KNOWN: LazyLock<Vec<RobotFacts>> = LazyLock::new(|| {
+    Robot::builtin_names()
+        .iter()
+        .filter_map(|name| Robot::builtin(name).ok())
+        .map(|robot| RobotFacts {
+            name: robot.name().to_owned(),
+            joint_names: robot.joint_names().map(str::to_owned).collect(),
+        })
+        .collect()
+});
 
 /// Every robot that a scenario may name.
 pub fn known_robots() -> &'static [RobotFacts] {
-    &[RobotFacts {
-        name: "ur5-paper",
-        joint_names: &[
-            "shoulder_pan_joint",
-            "shoulder_lift_joint",
-            "elbow_joint",
-            "wrist_1_joint",
-            "wrist_2_joint",
-            "wrist_3_joint",
-        ],
-    }]
+    &KNOWN
 }

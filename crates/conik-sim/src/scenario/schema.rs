@@ -67,7 +67,10 @@ fn holds(key: &Key) -> Value {
     match key.holds {
         Holds::TaskName => json!({ "type": "string", "pattern": names::PATTERN }),
         Holds::Robot => {
-            let names: Vec<_> = known_robots().iter().map(|robot| robot.name).collect();
+            let names: Vec<_> = known_robots()
+                .iter()
+                .map(|robot| robot.name.as_str())
+                .collect();
             json!({ "type": "string", "enum": names })
         }
         Holds::Text | Holds::TaskType => json!({ "type": "string" }),
@@ -120,8 +123,8 @@ fn vector(range: Range) -> Value {
 fn joint_names() -> Vec<&'static str> {
     let mut names: Vec<_> = known_robots()
         .iter()
-        .flat_map(|robot| robot.joint_names)
-        .copied()
+        .flat_map(|robot| &robot.joint_names)
+        .map(String::as_str)
         .collect();
     names.sort_unstable();
     names.dedup();
