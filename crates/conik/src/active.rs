@@ -2,7 +2,7 @@
 
 use core::fmt;
 
-use crate::stack::TaskId;
+use crate::task_id::TaskId;
 
 /// The most tasks in a stack.
 pub const MAX_TASKS: usize = 256;

@@ -8,8 +8,9 @@ use crate::kinematics::Kinematics;
 use crate::mode::ModeSearch;
 use crate::robot::Robot;
 use crate::settings::Settings;
-use crate::stack::{Setpoints, Stack, TaskId};
+use crate::stack::{Setpoints, Stack};
 use crate::step::{SpeedLimit, Step};
+use crate::task_id::TaskId;
 
 /// A kinematic controller for one robot and one stack of tasks: the block of that name in Fig. 2 of
 /// the paper.

@@ -4,8 +4,9 @@ use alloc::vec::Vec;
 
 use crate::kinematics::Kinematics;
 use crate::linalg::RowSpace;
-use crate::stack::{Stack, TaskId};
+use crate::stack::Stack;
 use crate::task::JacobianMut;
+use crate::task_id::TaskId;
 
 /// The equality tasks of which at least one row depends, in this configuration, on the rows of the
 /// equality tasks above. Those rows leave them no joint motion of their own, and the convergence that

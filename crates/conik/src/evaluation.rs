@@ -4,8 +4,9 @@ use alloc::vec::Vec;
 
 use crate::kinematics::Kinematics;
 use crate::robot::Robot;
-use crate::stack::{Goal, Stack, TaskId};
+use crate::stack::{Goal, Stack};
 use crate::task::JacobianMut;
+use crate::task_id::TaskId;
 use crate::task_vectors::TaskVectors;
 
 #[derive(Debug)]

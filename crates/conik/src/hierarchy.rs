@@ -9,7 +9,8 @@ use alloc::vec::Vec;
 use crate::active::ActiveSet;
 use crate::evaluation::Evaluation;
 use crate::linalg::{MinimumNorm, RowSpace, add_scaled};
-use crate::stack::{Goal, Stack, TaskId};
+use crate::stack::{Goal, Stack};
+use crate::task_id::TaskId;
 
 #[derive(Debug)]
 pub(crate) struct Hierarchy {

@@ -73,6 +73,7 @@ mod settings;
 mod stack;
 mod step;
 mod task;
+mod task_id;
 mod task_vectors;
 mod waypoints;
 
@@ -87,9 +88,10 @@ pub use mode::ModeOrder;
 pub use monitor::{Deviation, Monitor, PROPERTY_TOLERANCE, Properties, TaskHistory};
 pub use robot::{DhRow, Joint, JointKind, JointLimits, Robot, RobotError};
 pub use settings::{Border, ModeRule, Recursion, Settings};
-pub use stack::{Goal, Level, Setpoints, Stack, StackError, StackErrorReason, TaskId};
+pub use stack::{Goal, Level, Setpoints, Stack, StackError, StackErrorReason};
 pub use step::{SpeedLimit, Step};
 pub use task::{
     Axis, Coordinate, Distance, FieldOfView, JacobianMut, JointPosition, Position, Task,
 };
+pub use task_id::TaskId;
 pub use waypoints::Waypoints;

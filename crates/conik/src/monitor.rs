@@ -2,8 +2,9 @@
 
 use alloc::vec::Vec;
 
-use crate::stack::{Stack, TaskId};
+use crate::stack::Stack;
 use crate::step::Step;
+use crate::task_id::TaskId;
 
 /// A property holds while its worst deviation is at most this [task's unit].
 pub const PROPERTY_TOLERANCE: f64 = 1e-6;

@@ -3,7 +3,8 @@
 use crate::active::ActiveSet;
 use crate::joints::JointVec;
 use crate::real::sqrt;
-use crate::stack::{Stack, TaskId};
+use crate::stack::Stack;
+use crate::task_id::TaskId;
 use crate::task_vectors::TaskVectors;
 
 /// One tick: the mode chosen at q, and the reference that follows from it.

@@ -2,7 +2,8 @@
 
 use alloc::vec::Vec;
 
-use crate::stack::{Stack, TaskId};
+use crate::stack::Stack;
+use crate::task_id::TaskId;
 
 /// A vector of each task's dimension for each task: values, errors.
 #[derive(Clone, Debug, PartialEq)]

@@ -49,7 +49,10 @@ impl Table<'_> {
         found: &mut Mistakes,
     ) -> Entry<usize> {
         self.entry(key, |value| {
-            let names = robot.map_or(&[][..], |robot| &robot.joint_names);
+            let names: &[String] = match robot {
+                Some(robot) => &robot.joint_names,
+                None => &[],
+            };
             if let Some(name) = value.toml.get_ref().as_str() {
                 // The names of an unknown robot's joints are unknown too; that is noted already.
                 robot?;

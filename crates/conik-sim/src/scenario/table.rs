@@ -208,9 +208,9 @@ impl<'a> Table<'a> {
 }
 
 /// What is wrong with a name that is none of those known, and what would be right.
-pub(super) fn unknown_name(
+pub(super) fn unknown_name<'a>(
     name: &str,
-    known: impl Iterator<Item = &'static str> + Clone,
+    known: impl Iterator<Item = &'a str> + Clone,
 ) -> (String, String) {
     let help = match nearest(name, known.clone()) {
         Some(meant) => format!("did you mean {meant:?}? Known: {}", one_of(known)),
@@ -220,7 +220,7 @@ pub(super) fn unknown_name(
 }
 
 /// `"a", "b"`
-fn one_of(names: impl Iterator<Item = &'static str>) -> String {
+fn one_of<'a>(names: impl Iterator<Item = &'a str>) -> String {
     let names: Vec<_> = names.map(|name| format!("{name:?}")).collect();
     names.join(", ")
 }

@@ -6,7 +6,8 @@
 use alloc::vec::Vec;
 
 use crate::active::ActiveSet;
-use crate::stack::{Stack, TaskId};
+use crate::stack::Stack;
+use crate::task_id::TaskId;
 
 /// How many branches a count may take before it is given up. Exclusions among few tasks need a
 /// handful; no count should hold up a program for a number that only people read.

@@ -22,7 +22,8 @@ use crate::evaluation::Evaluation;
 use crate::hierarchy::Hierarchy;
 use crate::linalg::dot;
 use crate::settings::ModeRule;
-use crate::stack::{Stack, TaskId};
+use crate::stack::Stack;
+use crate::task_id::TaskId;
 
 /// A task that changes slower than this [unit/s] counts as one that stands still: a frozen task
 /// moves at the level of rounding, and the test must not see it leave.

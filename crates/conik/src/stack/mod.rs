@@ -11,24 +11,10 @@ use crate::active::{ActiveSet, MAX_TASKS};
 use crate::cone::Interval;
 use crate::robot::Robot;
 use crate::task::Task;
+use crate::task_id::TaskId;
 pub use checks::{StackError, StackErrorReason};
 use checks::{check_desired, check_dimension, check_gain, check_set, error};
 pub use setpoints::Setpoints;
-
-/// A task's place in its stack: 0 is the highest priority.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub struct TaskId(usize);
-
-impl TaskId {
-    pub(crate) const fn new(index: usize) -> Self {
-        Self(index)
-    }
-
-    /// The place as a number, counted from 0.
-    pub const fn index(self) -> usize {
-        self.0
-    }
-}
 
 /// What is asked of a task.
 #[derive(Clone, Debug, PartialEq)]
@@ -201,7 +187,7 @@ impl Stack {
             goal,
             excluded: ActiveSet::EMPTY,
         });
-        Ok(TaskId(self.levels.len() - 1))
+        Ok(TaskId::new(self.levels.len() - 1))
     }
 
     /// Declares that no two of these set-based tasks can be active together (the paper strikes the
@@ -209,17 +195,17 @@ impl Stack {
     pub fn exclude_together(&mut self, tasks: &[TaskId]) -> Result<(), StackError> {
         if let Some(&task) = tasks
             .iter()
-            .find(|task| self.levels[task.0].interval().is_none())
+            .find(|task| self.levels[task.index()].interval().is_none())
         {
             return Err(error(
-                &self.levels[task.0].name,
+                &self.levels[task.index()].name,
                 StackErrorReason::WrongKind,
             ));
         }
         let group: ActiveSet = tasks.iter().copied().collect();
         for &task in tasks {
             for other in group.iter().filter(|&other| other != task) {
-                self.levels[task.0].excluded.insert(other);
+                self.levels[task.index()].excluded.insert(other);
             }
         }
         Ok(())
@@ -235,7 +221,7 @@ impl Stack {
         self.levels
             .iter()
             .position(|level| level.name == name)
-            .map(TaskId)
+            .map(TaskId::new)
     }
 
     /// The tasks with their places, the highest priority first.
@@ -243,7 +229,7 @@ impl Stack {
         self.levels
             .iter()
             .enumerate()
-            .map(|(i, level)| (TaskId(i), level))
+            .map(|(i, level)| (TaskId::new(i), level))
     }
 
     /// Number of tasks.
@@ -264,7 +250,7 @@ impl Stack {
     /// Whether a task stands above the first equality task.
     #[inline]
     pub fn is_high_priority(&self, task: TaskId) -> bool {
-        task.0 < self.first_equality()
+        task.index() < self.first_equality()
     }
 
     /// Index of the first equality task; the number of tasks if there is none.
@@ -281,6 +267,6 @@ impl core::ops::Index<TaskId> for Stack {
 
     #[inline]
     fn index(&self, task: TaskId) -> &Level {
-        &self.levels[task.0]
+        &self.levels[task.index()]
     }
 }

@@ -3,9 +3,10 @@
 use core::any::Any;
 
 use super::checks::{check_desired, check_set, error};
-use super::{Goal, Stack, StackError, StackErrorReason, TaskId};
+use super::{Goal, Stack, StackError, StackErrorReason};
 use crate::cone::Interval;
 use crate::task::Task;
+use crate::task_id::TaskId;
 
 /// The part of a [`Stack`] that may change between any two ticks.
 #[derive(Debug)]
@@ -57,7 +58,7 @@ impl Setpoints<'_> {
 
     /// A task as its own type, to change its parameters; `None` if it is of another type.
     pub fn task_mut<T: Task>(&mut self, task: TaskId) -> Option<&mut T> {
-        let task: &mut dyn Any = &mut *self.stack.levels[task.0].task;
+        let task: &mut dyn Any = &mut *self.stack.levels[task.index()].task;
         task.downcast_mut()
     }
 
@@ -66,7 +67,7 @@ impl Setpoints<'_> {
         task: TaskId,
         change: impl FnOnce(&mut Goal, usize) -> Result<(), StackErrorReason>,
     ) -> Result<(), StackError> {
-        let level = &mut self.stack.levels[task.0];
+        let level = &mut self.stack.levels[task.index()];
         let dimension = level.task.dimension();
         change(&mut level.goal, dimension).map_err(|reason| error(&level.name, reason))
     }
