@@ -55,7 +55,7 @@ pub(super) fn read(
     table.refuse_unknown_keys(&keys::ROBOT_KEYS.iter().copied(), not_yet, found);
     let q0_rad = read_start(table, robot, found);
     Some(RobotConfig {
-        model: robot?.name.to_owned(),
+        model: robot?.name.clone(),
         q0_rad: q0_rad?,
     })
 }
