@@ -1,5 +1,6 @@
 //! What can go wrong in a command: how it is shown, and the exit status it means.
 
+use std::error::Error;
 use std::fmt;
 use std::io::IsTerminal;
 use std::path::Path;
@@ -74,6 +75,18 @@ impl From<LoadError> for Failure {
             _ => Self::input(error),
         }
     }
+}
+
+/// What an error says, and what each of its causes adds.
+pub fn with_causes(error: &dyn Error) -> String {
+    let mut text = error.to_string();
+    let causes = std::iter::successors(error.source(), |&cause| cause.source());
+    for cause in causes.map(ToString::to_string) {
+        if !text.contains(&cause) {
+            text += &format!("\n  because: {cause}");
+        }
+    }
+    text
 }
 
 fn is_readable(text: &str) -> bool {
