@@ -22,7 +22,7 @@ use conik_sim::scenario::{Choice, Scenario};
 use conik_sim::summarise::Summariser;
 use conik_sim::summary::{Outcome, Settings, Summary};
 use conik_ur::driver::{UrArm, UrConfig};
-use conik_ur::emulator::{Emulator, EmulatorConfig, Pace, Series};
+use conik_ur::emulator::{Emulator, EmulatorConfig, EmulatorError, Pace, Series};
 
 use crate::arguments::{Overrides, RunArguments};
 use crate::failure::{Failure, with_causes};
@@ -196,13 +196,24 @@ fn arm(
                 },
                 ..EmulatorConfig::new(series, experiment.q0)
             })
-            .map_err(Failure::input)?;
+            .map_err(|error| match error {
+                EmulatorError::BadSetting { .. } => Failure::input(format!(
+                    "{error}; another `rate_hz` or --rate-hz, or --robot ideal, would do"
+                )),
+                error => Failure::input(error),
+            })?;
             (
                 Box::new(UrArm::new(emulator.driver_config())),
                 Some(emulator),
             )
         }
         host => {
+            if arguments.fast {
+                return Err(Failure::input(format!(
+                    "--fast: the controller at {host} keeps its own time; --fast is for \
+                     --robot emulator"
+                )));
+            }
             let mut config = UrConfig::new(host);
             for port in [&mut config.rtde_port, &mut config.script_port] {
                 *port = port
