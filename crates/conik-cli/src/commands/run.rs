@@ -135,7 +135,10 @@ fn clear(out: &Path) -> Result<(), Failure> {
                 out.display()
             )
         } else {
-            format!("cannot make the folder {}: {error}", out.display())
+            format!(
+                "cannot make the folder {}: {error}; give another one with --out",
+                out.display()
+            )
         })
     })?;
     for name in [SUMMARY, REPORT] {
