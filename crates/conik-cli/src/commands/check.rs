@@ -9,7 +9,8 @@ use conik_sim::scenario::{GoalConfig, Scenario};
 
 use crate::arguments::CheckArguments;
 use crate::failure::Failure;
-use crate::present::{rules, table, wrapped};
+use crate::layout::{table, wrapped};
+use crate::present::rules;
 
 /// Prints the robot, the hierarchy, the modes and the doubts.
 pub fn check(arguments: &CheckArguments) -> Result<ExitCode, Failure> {

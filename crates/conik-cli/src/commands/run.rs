@@ -18,13 +18,13 @@ use conik_sim::experiment::Experiment;
 use conik_sim::log::{LogWriteError, LogWriter};
 use conik_sim::record::Record;
 use conik_sim::run::{self, Ended};
-use conik_sim::scenario::{Choice, Scenario};
+use conik_sim::scenario::Scenario;
 use conik_sim::summarise::Summariser;
 use conik_sim::summary::{Outcome, Settings, Summary};
 use conik_ur::driver::{UrArm, UrConfig};
 use conik_ur::emulator::{Emulator, EmulatorConfig, EmulatorError, Pace, Series};
 
-use crate::arguments::{Overrides, RunArguments};
+use crate::arguments::RunArguments;
 use crate::failure::{Failure, with_causes};
 use crate::present;
 use crate::progress::Progress;
@@ -67,56 +67,6 @@ pub fn stop_on_ctrl_c() -> Result<Arc<AtomicBool>, Failure> {
     ctrlc::set_handler(move || flag.store(true, Ordering::Relaxed))
         .map_err(|error| Failure::run(format!("cannot listen for Ctrl-C: {error}")))?;
     Ok(stop)
-}
-
-impl Overrides {
-    fn apply(&self, scenario: &mut Scenario) -> Result<(), Failure> {
-        let control = &mut scenario.control;
-        choose(
-            "mode-rule",
-            self.mode_rule.as_deref(),
-            &mut control.mode_rule,
-        )?;
-        choose("border", self.border.as_deref(), &mut control.border)?;
-        choose(
-            "recursion",
-            self.recursion.as_deref(),
-            &mut control.recursion,
-        )?;
-        control.rate_hz = self.rate_hz.unwrap_or(control.rate_hz);
-        control.duration_s = self.duration_s.unwrap_or(control.duration_s);
-        for (option, value) in [
-            ("rate-hz", control.rate_hz),
-            ("duration-s", control.duration_s),
-        ] {
-            if !value.is_finite() {
-                return Err(Failure::input(format!(
-                    "--{option}: {value} is no finite number"
-                )));
-            }
-        }
-        scenario
-            .check()
-            .map_err(|errors| Failure::overrides(&errors))
-    }
-}
-
-fn choose<T: Choice + 'static>(
-    option: &str,
-    name: Option<&str>,
-    value: &mut T,
-) -> Result<(), Failure> {
-    let Some(name) = name else { return Ok(()) };
-    *value = T::from_name(name).ok_or_else(|| {
-        let known: Vec<&str> = T::ALL.iter().map(|(choice, _)| choice.name()).collect();
-        let known = known.join("`, `");
-        Failure::input(if T::NOT_YET.contains(&name) {
-            format!("--{option}: this version does not have `{name}` yet; it has `{known}`")
-        } else {
-            format!("--{option}: there is no `{name}`; give one of `{known}`")
-        })
-    })?;
-    Ok(())
 }
 
 fn out_dir(arguments: &RunArguments) -> PathBuf {
