@@ -81,6 +81,11 @@ fn nobody_listening_is_a_fault_with_a_name() {
         said.stderr
             .contains("error: connect-failed: no connection to 127.0.0.1:")
     );
+    assert_eq!(
+        said.stderr.lines().count(),
+        1,
+        "one fault, one message: {said:#?}"
+    );
     assert!(said.stdout.contains("before the first tick"), "{said:#?}");
     assert_eq!(summary(&folder)["outcome"]["name"], "connect-failed");
 }

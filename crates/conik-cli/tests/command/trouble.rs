@@ -32,7 +32,7 @@ fn folder_that_cannot_be_written_is_named() {
 #[cfg(target_os = "linux")]
 #[test]
 fn full_disk_ends_the_run_and_is_named() {
-    for robot in ["--robot ideal", "--fast", "--duration-s 2"] {
+    for robot in ["--robot ideal", "--fast", "--robot ideal --duration-s 0.5"] {
         let folder = empty_folder("full disk");
         std::os::unix::fs::symlink("/dev/full", folder.join("log.csv")).unwrap();
         let line = format!(
