@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use clap::builder::NonEmptyStringValueParser;
 use clap::{Args, Parser, Subcommand, ValueEnum, ValueHint};
 use clap_complete::Shell;
 
@@ -54,7 +55,12 @@ pub struct RunArguments {
     pub scenario: PathBuf,
     /// The arm: `emulator` (a UR controller emulated in this process, over TCP on loopback),
     /// `ideal` (q = q_ref, no network, as fast as possible), or the host name of a real controller
-    #[arg(long, value_name = "emulator|ideal|HOST", default_value = "emulator")]
+    #[arg(
+        long,
+        value_name = "emulator|ideal|HOST",
+        default_value = "emulator",
+        value_parser = NonEmptyStringValueParser::new()
+    )]
     pub robot: String,
     /// Run the emulator in lockstep, as fast as references are computed, not in wall time
     #[arg(long)]
@@ -65,12 +71,12 @@ pub struct RunArguments {
     /// No progress line and no summary; errors are printed all the same
     #[arg(long, short)]
     pub quiet: bool,
+    /// With `--robot HOST`: added to the controller's ports, as in `conik emulate --port-offset`
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    pub port_offset: u16,
     /// What the file says otherwise.
     #[command(flatten)]
     pub overrides: Overrides,
-    /// Added to the controller's ports, for an emulator beside a real one
-    #[arg(long, value_name = "N", default_value_t = 0)]
-    pub port_offset: u16,
 }
 
 /// Settings that override the file.
@@ -87,10 +93,10 @@ pub struct Overrides {
     #[arg(long, value_name = "RECURSION")]
     pub recursion: Option<String>,
     /// Length of the run [s]
-    #[arg(long, value_name = "SECONDS")]
+    #[arg(long, value_name = "SECONDS", allow_negative_numbers = true)]
     pub duration_s: Option<f64>,
     /// Control rate [Hz]
-    #[arg(long, value_name = "HZ")]
+    #[arg(long, value_name = "HZ", allow_negative_numbers = true)]
     pub rate_hz: Option<f64>,
 }
 

@@ -1,11 +1,14 @@
 //! What can go wrong in a command: how it is shown, and the exit status it means.
 
+use std::error::Error;
 use std::fmt;
 use std::io::IsTerminal;
 use std::path::Path;
 
 use conik_sim::scenario::{LoadError, Mistake, ScenarioErrors};
-use miette::{GraphicalReportHandler, LabeledSpan, MietteDiagnostic, NamedSource, Severity};
+use miette::{
+    GraphicalReportHandler, GraphicalTheme, LabeledSpan, MietteDiagnostic, NamedSource, Severity,
+};
 
 /// Lines longer than this are not shown: a file of noise would fill the screen.
 const LONGEST_LINE_SHOWN: usize = 400;
@@ -36,16 +39,20 @@ impl Failure {
         }
     }
 
-    /// Mistakes in options that override the scenario.
+    /// Mistakes in options that override the scenario, or in what they make of the rest of it.
     pub fn overrides(errors: &ScenarioErrors) -> Self {
         let lines: Vec<String> = errors
             .mistakes()
             .iter()
-            .map(|mistake| {
-                let option = mistake.key.rsplit('.').next().unwrap_or_default();
-                let option = option.replace('_', "-");
-                format!("error: --{option}: {}; {}", mistake.what, mistake.help)
-            })
+            .map(
+                |Mistake {
+                     key, what, help, ..
+                 }| match key.as_str() {
+                    "control.rate_hz" => format!("error: --rate-hz: {what}; {help}"),
+                    "control.duration_s" => format!("error: --duration-s: {what}; {help}"),
+                    key => format!("error: with these options, {key}: {what}; {help}"),
+                },
+            )
             .collect();
         Self {
             text: lines.join("\n"),
@@ -76,27 +83,42 @@ impl From<LoadError> for Failure {
     }
 }
 
+/// What an error says, and what each of its causes adds.
+pub fn with_causes(error: &dyn Error) -> String {
+    let mut text = error.to_string();
+    let causes = std::iter::successors(error.source(), |&cause| cause.source());
+    for cause in causes.map(ToString::to_string) {
+        if !text.contains(&cause) {
+            text += &format!("\n  because: {cause}");
+        }
+    }
+    text
+}
+
 fn is_readable(text: &str) -> bool {
     text.lines().all(|line| line.len() <= LONGEST_LINE_SHOWN)
 }
 
 /// Every mistake with the lines of the file that it is about.
 fn show(path: &Path, text: &str, errors: &ScenarioErrors) -> String {
-    let handler = if std::io::stderr().is_terminal() {
-        GraphicalReportHandler::new()
-    } else {
-        // Whoever reads a file or a pipe breaks its lines themselves.
-        GraphicalReportHandler::new_themed(miette::GraphicalTheme::unicode_nocolor())
-            .with_width(10_000)
-    };
+    // Whoever reads a file or a pipe breaks its lines themselves.
+    let piped = (!std::io::stderr().is_terminal()).then(|| {
+        GraphicalReportHandler::new_themed(GraphicalTheme::unicode_nocolor()).with_width(10_000)
+    });
     let mut shown = String::new();
     for mistake in errors.mistakes() {
         let report = miette::Report::new(diagnostic(mistake)).with_source_code(NamedSource::new(
             path.display().to_string(),
             text.to_owned(),
         ));
-        if handler.render_report(&mut shown, report.as_ref()).is_err() {
-            shown.push_str(&mistake.to_string());
+        match &piped {
+            Some(handler) => {
+                if handler.render_report(&mut shown, report.as_ref()).is_err() {
+                    shown.push_str(&mistake.to_string());
+                }
+            }
+            // As wide as the terminal, in colours if it has any.
+            None => shown += format!("{report:?}").trim_start_matches('\n'),
         }
     }
     if errors.more() > 0 {

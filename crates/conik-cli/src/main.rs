@@ -3,6 +3,8 @@
 mod arguments;
 mod commands;
 mod failure;
+mod layout;
+mod overrides;
 mod present;
 mod progress;
 

@@ -2,26 +2,45 @@
 
 use conik_cli::report::units::{limit, optional, quantity};
 use conik_sim::experiment::Experiment;
-use conik_sim::scenario::{Choice, GoalConfig, Scenario, TaskConfig};
+use conik_sim::scenario::{Choice, Control, GoalConfig, Scenario, TaskConfig};
 use conik_sim::summary::{Outcome, Property, Summary};
 
-/// Two lines: what is run, on what, and how.
+use crate::layout::{counted, table, wrapped};
+
+/// Waypoints beyond this number are counted, not listed.
+const MOST_WAYPOINTS_LISTED: usize = 8;
+
+/// What is run, on what, and how.
 pub fn heading(scenario: &Scenario, arm: &str) -> String {
+    let title = scenario
+        .title
+        .as_ref()
+        .map_or(String::new(), |title| format!("{title}\n"));
     let control = &scenario.control;
-    let title = scenario.title.as_deref().unwrap_or("(no title)");
+    let model = &scenario.robot.model;
     format!(
-        "{title}\n{} on {arm}: {} s at {} Hz, rule {}, border {}, recursion {}\n",
-        scenario.robot.model,
+        "{title}{model} on {arm}\n{} s at {} Hz, {}\n",
         control.duration_s,
         control.rate_hz,
+        rules(control)
+    )
+}
+
+/// The three choices of how the controller works.
+pub fn rules(control: &Control) -> String {
+    format!(
+        "rule {}, border {}, recursion {}",
         control.mode_rule.name(),
         control.border.name(),
-        control.recursion.name(),
+        control.recursion.name()
     )
 }
 
 /// What became of the run.
 pub fn summary(summary: &Summary, experiment: &Experiment) -> String {
+    if summary.modes.is_empty() {
+        return outcome(summary);
+    }
     [
         outcome(summary),
         waypoints(summary),
@@ -32,25 +51,43 @@ pub fn summary(summary: &Summary, experiment: &Experiment) -> String {
     ]
     .into_iter()
     .filter(|part| !part.is_empty())
-    .collect::<Vec<_>>()
-    .join("\n")
+    .map(|part| format!("\n{part}"))
+    .collect()
 }
 
 fn outcome(summary: &Summary) -> String {
-    let at = summary.ended_at_s;
+    let when = if summary.modes.is_empty() {
+        "before the first tick".to_owned()
+    } else {
+        format!("at {} s", summary.ended_at_s)
+    };
     match &summary.outcome {
         Outcome::Completed => String::new(),
         Outcome::Interrupted => {
-            format!("\nstopped by hand at {at} s; the arm was brought to a stop first\n")
+            format!("stopped by hand {when}; the arm was brought to a stop first\n")
         }
-        Outcome::Fault { name, .. } => format!("\nstopped at {at} s by a fault: {name}\n"),
+        Outcome::Fault { name, .. } => format!("stopped {when} by a fault: {name}\n"),
     }
 }
 
 fn waypoints(summary: &Summary) -> String {
-    summary
-        .waypoints_reached_s
-        .iter()
+    let all = &summary.waypoints_reached_s;
+    if all.len() > MOST_WAYPOINTS_LISTED {
+        let reached: Vec<f64> = all.iter().flatten().copied().collect();
+        let last = reached
+            .iter()
+            .copied()
+            .reduce(f64::max)
+            .map_or(String::new(), |t_s| {
+                format!(", the last of them at {t_s} s")
+            });
+        return format!(
+            "  {} of {} waypoints reached{last}\n",
+            reached.len(),
+            all.len()
+        );
+    }
+    all.iter()
         .enumerate()
         .map(|(i, reached)| match reached {
             Some(t_s) => format!("  waypoint {}  reached at {t_s} s\n", i + 1),
@@ -62,7 +99,7 @@ fn waypoints(summary: &Summary) -> String {
 /// One line per task, in the order of priority.
 fn tasks(summary: &Summary) -> String {
     let mut rows =
-        vec![["task", "goal", "result", "inside since", "active for"].map(str::to_owned)];
+        vec![["task", "goal", "result", "first inside", "active for"].map(str::to_owned)];
     for task in &summary.settings.scenario.tasks {
         rows.push(task_row(summary, task));
     }
@@ -127,7 +164,9 @@ fn properties(summary: &Summary) -> String {
     ]
     .iter()
     .all(|property| property.holds);
-    let mut text = "  the five properties of Section VI of the paper, to 1e-6\n".to_owned();
+    let mut text =
+        "  the paper's five properties (Section VI), to 1e-6; 2 to 4: high-priority sets\n"
+            .to_owned();
     for (sentence, property, observation) in [
         (
             "1  equality tasks converge",
@@ -135,22 +174,22 @@ fn properties(summary: &Summary) -> String {
             true,
         ),
         (
-            "2  high-priority sets that hold at the start stay",
+            "2  sets held at the start stay",
             &properties.inside_stays,
             false,
         ),
         (
-            "3  high-priority sets outside never get worse",
+            "3  sets outside never get worse",
             &properties.outside_never_worse,
             false,
         ),
         (
-            "4  high-priority sets once entered stay",
+            "4  sets once entered stay",
             &properties.entered_stays,
             false,
         ),
         (
-            "5  low-priority sets stay (no guarantee)",
+            "5  low-priority sets stay",
             &properties.low_priority_excess,
             true,
         ),
@@ -160,14 +199,16 @@ fn properties(summary: &Summary) -> String {
             (false, true) => "not here",
             (false, false) => "broken",
         };
-        text += &format!(
-            "  {sentence:<52}{verdict:<10}{}\n",
-            worst(summary, property)
-        );
+        let worst = worst(summary, property);
+        text += format!("  {sentence:<33}{verdict:<10}{worst}").trim_end();
+        text.push('\n');
     }
     if !high_priority_holds {
-        text += "  border `freeze` promises nothing between samples: such dips are of the order of one \
-                 period's motion\n";
+        text += &wrapped(
+            "  ",
+            "border `freeze` promises nothing between samples: such dips are of the order of one \
+             period's motion",
+        );
     }
     text
 }
@@ -190,10 +231,13 @@ fn limits(summary: &Summary, experiment: &Experiment) -> String {
         );
     }
     if summary.no_mode_ticks > 0 {
-        text += &format!(
-            "  for {:.3} s no allowed mode kept every set, and the arm stood still: does `exclusive` \
-             name sets that can be at their border together?\n",
-            summary.no_mode_ticks as f64 * period
+        text += &wrapped(
+            "  ",
+            &format!(
+                "for {:.3} s no allowed mode kept every set, and the arm stood still: does \
+                 `exclusive` name sets that can be at their border together?",
+                summary.no_mode_ticks as f64 * period
+            ),
         );
     }
     text
@@ -202,8 +246,8 @@ fn limits(summary: &Summary, experiment: &Experiment) -> String {
 fn machine(summary: &Summary) -> String {
     let time = &summary.step_time_us;
     let mut text = format!(
-        "  {} mode changes; a step takes {:.2} µs (99 % below {:.2}, longest {:.0})\n",
-        summary.modes.len().saturating_sub(1),
+        "  {}; a step took {:.2} µs (99 % below {:.2} µs, longest {:.0} µs)\n",
+        counted(summary.modes.len() as u64 - 1, "mode change"),
         time.median,
         time.p99,
         time.max
@@ -218,33 +262,12 @@ fn machine(summary: &Summary) -> String {
             .unwrap_or((0, 0.0));
         let rms = tracking.rms_rad.get(joint).copied().unwrap_or(0.0);
         text += &format!(
-            "  the arm followed within {} (joint {}, root mean square {}); {} cycles missed\n",
+            "  the arm followed within {} (joint {}, root mean square {})\n  {} without a reference\n",
             quantity(max, "rad"),
             joint + 1,
             quantity(rms, "rad"),
-            summary.deadline_misses
+            counted(summary.deadline_misses, "cycle"),
         );
-    }
-    text
-}
-
-/// Columns side by side, the first row a heading.
-fn table<const N: usize>(rows: &[[String; N]]) -> String {
-    let width = |column: usize| {
-        rows.iter()
-            .map(|row| row[column].chars().count())
-            .max()
-            .unwrap_or(0)
-    };
-    let widths: [usize; N] = std::array::from_fn(width);
-    let mut text = String::new();
-    for row in rows {
-        let mut line = String::from(" ");
-        for (cell, width) in row.iter().zip(widths) {
-            line += &format!(" {cell:<width$} ");
-        }
-        text += line.trim_end();
-        text.push('\n');
     }
     text
 }

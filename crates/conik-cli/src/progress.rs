@@ -1,6 +1,5 @@
 //! The progress line of a run: time, mode, active sets, distance to go.
 
-use std::io::IsTerminal;
 use std::time::{Duration, Instant};
 
 use conik_sim::experiment::Experiment;
@@ -45,18 +44,13 @@ impl Progress {
             }
             (None, None) => None,
         };
-        let is_terminal = std::io::stderr().is_terminal();
+        let target = ProgressDrawTarget::stderr();
+        // A terminal that cannot move its cursor (`TERM=dumb`) is written to like a file.
+        let is_terminal = !target.is_hidden();
         let bar = (!quiet).then(|| {
-            let bar = ProgressBar::with_draw_target(
-                Some(experiment.last_tick),
-                if is_terminal {
-                    ProgressDrawTarget::stderr()
-                } else {
-                    ProgressDrawTarget::hidden()
-                },
-            );
+            let bar = ProgressBar::with_draw_target(Some(experiment.last_tick), target);
             // A template that is wrong shows a plain bar.
-            if let Ok(style) = ProgressStyle::with_template("{bar:24} {wide_msg}") {
+            if let Ok(style) = ProgressStyle::with_template("{bar:10} {wide_msg}") {
                 bar.set_style(style.progress_chars("━╸─"));
             }
             bar
@@ -95,8 +89,16 @@ impl Progress {
         }
     }
 
+    /// What grows with the number of sets comes last: a narrow terminal cuts the line.
     fn line(&self, record: &Record, mode: Option<&ModeChange>) -> String {
         let mut line = format!("{:6.2} of {} s", record.t_s, self.duration_s);
+        if let Some((column, unit)) = self.to_go {
+            line += &format!("  {:.3} {unit} to ", record.task_values[column]);
+            line += &match self.waypoints {
+                0 | 1 => "go".to_owned(),
+                all => format!("waypoint {}/{all}", record.waypoint + 1),
+            };
+        }
         if let Some(mode) = mode {
             let number = mode
                 .mode
@@ -106,12 +108,6 @@ impl Progress {
                 names => names.join(" + "),
             };
             line += &format!("  mode {number}: {active}");
-        }
-        if let Some((column, unit)) = self.to_go {
-            line += &format!("  {:.3} {unit} to go", record.task_values[column]);
-            if self.waypoints > 1 {
-                line += &format!(" to waypoint {} of {}", record.waypoint + 1, self.waypoints);
-            }
         }
         line
     }

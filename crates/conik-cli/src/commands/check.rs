@@ -5,10 +5,12 @@ use std::process::ExitCode;
 use conik_cli::report::units::limit;
 use conik_sim::check::{Findings, find};
 use conik_sim::experiment::Experiment;
-use conik_sim::scenario::{Choice, GoalConfig, Scenario};
+use conik_sim::scenario::{GoalConfig, Scenario};
 
 use crate::arguments::CheckArguments;
 use crate::failure::Failure;
+use crate::layout::{table, wrapped};
+use crate::present::rules;
 
 /// Prints the robot, the hierarchy, the modes and the doubts.
 pub fn check(arguments: &CheckArguments) -> Result<ExitCode, Failure> {
@@ -56,28 +58,26 @@ fn robot(scenario: &Scenario, experiment: &Experiment, findings: &Findings) -> S
 }
 
 fn hierarchy(scenario: &Scenario, experiment: &Experiment, findings: &Findings) -> String {
-    let mut text = "tasks in decreasing priority, values at the start\n".to_owned();
+    let mut rows = vec![["task", "kind", "wanted", "at the start"].map(str::to_owned)];
     let stack = experiment.controller.stack();
-    for (i, ((id, level), config)) in stack.iter().zip(&scenario.tasks).enumerate() {
+    for (((id, level), config), now) in stack.iter().zip(&scenario.tasks).zip(&findings.values) {
         let unit = level.task().unit();
         let kind = match (&config.goal, stack.is_high_priority(id)) {
-            (GoalConfig::Set { .. }, true) => "set, high priority",
-            (GoalConfig::Set { .. }, false) => "set, low priority",
+            (GoalConfig::Set { .. }, true) => "high-priority set",
+            (GoalConfig::Set { .. }, false) => "low-priority set",
             _ => "equality",
         };
         let wanted = match level.interval() {
             Some(set) if set.min.is_finite() && set.max.is_finite() => {
-                format!("allowed {} … {}", limit(set.min, "-"), limit(set.max, unit))
+                format!("{} … {}", limit(set.min, "-"), limit(set.max, unit))
             }
-            Some(set) if set.min.is_finite() => format!("at least {}", limit(set.min, unit)),
-            Some(set) => format!("at most {}", limit(set.max, unit)),
+            Some(set) if set.min.is_finite() => format!("≥ {}", limit(set.min, unit)),
+            Some(set) => format!("≤ {}", limit(set.max, unit)),
             None => format!("gain {}/s", config.goal.gain_per_s().unwrap_or(0.0)),
         };
-        let name = &config.name;
-        let now = &findings.values[i];
-        text += &format!("  {} {name:<16} {kind:<19} {wanted:<24} now {now}\n", i + 1);
+        rows.push([config.name.clone(), kind.to_owned(), wanted, now.clone()]);
     }
-    text + "\n"
+    format!("tasks in decreasing priority\n{}\n", table(&rows))
 }
 
 fn modes(scenario: &Scenario, experiment: &Experiment) -> String {
@@ -94,12 +94,10 @@ fn modes(scenario: &Scenario, experiment: &Experiment) -> String {
             format!("{count} modes")
         });
     format!(
-        "{sets} set-based tasks make {count}; rule `{}`, border `{}`, recursion `{}`, {} Hz, {} s\n\n",
-        scenario.control.mode_rule.name(),
-        scenario.control.border.name(),
-        scenario.control.recursion.name(),
-        scenario.control.rate_hz,
+        "{sets} set-based tasks make {count}\n{} s at {} Hz, {}\n\n",
         scenario.control.duration_s,
+        scenario.control.rate_hz,
+        rules(&scenario.control),
     )
 }
 
@@ -109,7 +107,7 @@ fn doubts(findings: &Findings) -> String {
     }
     let mut text = "doubtful:\n".to_owned();
     for doubt in &findings.doubts {
-        text += &format!("  - {doubt}\n");
+        text += &wrapped("  - ", doubt);
     }
     text
 }

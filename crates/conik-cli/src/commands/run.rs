@@ -4,6 +4,7 @@
 //! the log, the summary and the progress line are made here and never hold it up.
 
 use std::fs;
+use std::io;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::sync::Arc;
@@ -17,19 +18,23 @@ use conik_sim::experiment::Experiment;
 use conik_sim::log::{LogWriteError, LogWriter};
 use conik_sim::record::Record;
 use conik_sim::run::{self, Ended};
-use conik_sim::scenario::{Choice, Scenario};
+use conik_sim::scenario::Scenario;
 use conik_sim::summarise::Summariser;
 use conik_sim::summary::{Outcome, Settings, Summary};
 use conik_ur::driver::{UrArm, UrConfig};
-use conik_ur::emulator::{Emulator, EmulatorConfig, Pace, Series};
+use conik_ur::emulator::{Emulator, EmulatorConfig, EmulatorError, Pace, Series};
 
-use crate::arguments::{Overrides, RunArguments};
-use crate::failure::Failure;
+use crate::arguments::RunArguments;
+use crate::failure::{Failure, with_causes};
 use crate::present;
 use crate::progress::Progress;
 
 /// Records that may wait for the log: eight seconds at 500 Hz.
 const RECORDS_WAITING: usize = 4096;
+
+/// Names of what stands beside the log.
+const SUMMARY: &str = "summary.json";
+const REPORT: &str = "report.html";
 
 /// Exit status of a run that a person stopped, as shells have it for Ctrl-C.
 const INTERRUPTED: u8 = 130;
@@ -39,15 +44,13 @@ pub fn run(arguments: &RunArguments) -> Result<ExitCode, Failure> {
     let mut scenario = Scenario::load(&arguments.scenario)?;
     arguments.overrides.apply(&mut scenario)?;
     let experiment = Experiment::new(&scenario).map_err(Failure::input)?;
+    let stop = stop_on_ctrl_c()?;
+    let mut driven = arm(arguments, &scenario, &experiment)?;
     let out = out_dir(arguments);
-    fs::create_dir_all(&out).map_err(|error| {
-        Failure::input(format!("cannot make the folder {}: {error}", out.display()))
-    })?;
+    clear(&out)?;
     let log = LogWriter::create(&out.join("log.csv"), experiment.controller.stack())
         .map_err(Failure::input)?;
     let settings = settings(&scenario, &experiment, &arguments.robot);
-    let stop = stop_on_ctrl_c()?;
-    let mut driven = arm(arguments, &scenario, &experiment)?;
     if !arguments.quiet {
         super::print(&present::heading(&scenario, &driven.arm.describe()))?;
     }
@@ -66,61 +69,41 @@ pub fn stop_on_ctrl_c() -> Result<Arc<AtomicBool>, Failure> {
     Ok(stop)
 }
 
-impl Overrides {
-    fn apply(&self, scenario: &mut Scenario) -> Result<(), Failure> {
-        let control = &mut scenario.control;
-        choose(
-            "mode-rule",
-            self.mode_rule.as_deref(),
-            &mut control.mode_rule,
-        )?;
-        choose("border", self.border.as_deref(), &mut control.border)?;
-        choose(
-            "recursion",
-            self.recursion.as_deref(),
-            &mut control.recursion,
-        )?;
-        control.rate_hz = self.rate_hz.unwrap_or(control.rate_hz);
-        control.duration_s = self.duration_s.unwrap_or(control.duration_s);
-        for (option, value) in [
-            ("rate-hz", control.rate_hz),
-            ("duration-s", control.duration_s),
-        ] {
-            if !value.is_finite() {
-                return Err(Failure::input(format!(
-                    "--{option}: {value} is no finite number"
-                )));
-            }
-        }
-        scenario
-            .check()
-            .map_err(|errors| Failure::overrides(&errors))
-    }
-}
-
-fn choose<T: Choice + 'static>(
-    option: &str,
-    name: Option<&str>,
-    value: &mut T,
-) -> Result<(), Failure> {
-    let Some(name) = name else { return Ok(()) };
-    *value = T::from_name(name).ok_or_else(|| {
-        let known: Vec<&str> = T::ALL.iter().map(|(choice, _)| choice.name()).collect();
-        let known = known.join("`, `");
-        Failure::input(if T::NOT_YET.contains(&name) {
-            format!("--{option}: this version does not have `{name}` yet; it has `{known}`")
-        } else {
-            format!("--{option}: there is no `{name}`; give one of `{known}`")
-        })
-    })?;
-    Ok(())
-}
-
 fn out_dir(arguments: &RunArguments) -> PathBuf {
     arguments.out.clone().unwrap_or_else(|| {
         let name = arguments.scenario.file_stem().unwrap_or("run".as_ref());
         Path::new("out").join(name)
     })
+}
+
+/// Makes the folder, and takes away what would tell of an earlier run beside this run's log.
+fn clear(out: &Path) -> Result<(), Failure> {
+    fs::create_dir_all(out).map_err(|error| {
+        Failure::input(if out.exists() && !out.is_dir() {
+            format!(
+                "{} is not a folder; give another one with --out",
+                out.display()
+            )
+        } else {
+            format!(
+                "cannot make the folder {}: {error}; give another one with --out",
+                out.display()
+            )
+        })
+    })?;
+    for name in [SUMMARY, REPORT] {
+        let path = out.join(name);
+        match fs::remove_file(&path) {
+            Err(error) if error.kind() != io::ErrorKind::NotFound => {
+                return Err(Failure::input(format!(
+                    "cannot replace {}: {error}",
+                    path.display()
+                )));
+            }
+            _ => {}
+        }
+    }
+    Ok(())
 }
 
 fn settings(scenario: &Scenario, experiment: &Experiment, robot: &str) -> Settings {
@@ -166,13 +149,24 @@ fn arm(
                 },
                 ..EmulatorConfig::new(series, experiment.q0)
             })
-            .map_err(Failure::input)?;
+            .map_err(|error| match error {
+                EmulatorError::BadSetting { .. } => Failure::input(format!(
+                    "{error}; another `rate_hz` or --rate-hz, or --robot ideal, would do"
+                )),
+                error => Failure::input(error),
+            })?;
             (
                 Box::new(UrArm::new(emulator.driver_config())),
                 Some(emulator),
             )
         }
         host => {
+            if arguments.fast {
+                return Err(Failure::input(format!(
+                    "--fast: the controller at {host} keeps its own time; --fast is for \
+                     --robot emulator"
+                )));
+            }
             let mut config = UrConfig::new(host);
             for port in [&mut config.rtde_port, &mut config.script_port] {
                 *port = port
@@ -270,34 +264,47 @@ fn finish(
         log,
     } = finished;
     let mut summary = summariser.finish(&ended, settings, env!("CARGO_PKG_VERSION"));
-    if let Err(error) = &log {
-        summary.outcome = Outcome::Fault {
-            name: "log-failed".to_owned(),
-            detail: error.to_string(),
-        };
+    let mut errors = vec![];
+    if let Outcome::Fault { name, detail } = &summary.outcome {
+        errors.push(format!("{name}: {detail}"));
     }
-    let written =
-        write_summary(out, &summary).and_then(|()| report::write(out).map_err(Failure::run));
+    let drawable = log.is_ok() && !summary.modes.is_empty();
+    if let Err(error) = log {
+        errors.push(error.to_string());
+        if errors.len() == 1 {
+            summary.outcome = Outcome::Fault {
+                name: "log-failed".to_owned(),
+                detail: error.to_string(),
+            };
+        }
+    }
+    if let Err(error) = write_summary(out, &summary) {
+        errors.push(error);
+    }
+    let mut last_words = present::summary(&summary, &ended.experiment);
+    // Where there is no row, or not every row could be written, there is nothing right to draw.
+    if drawable {
+        match report::write(out) {
+            Ok(path) => last_words += &format!("report: {}\n", path.display()),
+            Err(error) => errors.push(with_causes(&error)),
+        }
+    }
     if !arguments.quiet {
-        super::print(&present::summary(&summary, &ended.experiment))?;
+        super::print(&last_words)?;
     }
-    let report = match (log, written) {
-        (Err(error), _) => return Err(Failure::run(error)),
-        (Ok(()), written) => written?,
-    };
-    if !arguments.quiet {
-        super::print(&format!("report: {}\n", report.display()))?;
+    if !errors.is_empty() {
+        return Err(Failure::run(errors.join("\nerror: ")));
     }
-    match summary.outcome {
-        Outcome::Completed => Ok(ExitCode::SUCCESS),
-        Outcome::Interrupted => Ok(ExitCode::from(INTERRUPTED)),
-        Outcome::Fault { name, detail } => Err(Failure::run(format!("{name}: {detail}"))),
-    }
+    Ok(match summary.outcome {
+        Outcome::Interrupted => ExitCode::from(INTERRUPTED),
+        Outcome::Completed | Outcome::Fault { .. } => ExitCode::SUCCESS,
+    })
 }
 
-fn write_summary(out: &Path, summary: &Summary) -> Result<(), Failure> {
-    let path = out.join("summary.json");
-    let text = serde_json::to_string_pretty(summary).map_err(Failure::run)?;
-    fs::write(&path, text + "\n")
-        .map_err(|error| Failure::run(format!("cannot write {}: {error}", path.display())))
+fn write_summary(out: &Path, summary: &Summary) -> Result<(), String> {
+    let path = out.join(SUMMARY);
+    serde_json::to_string_pretty(summary)
+        .map_err(io::Error::from)
+        .and_then(|text| fs::write(&path, text + "\n"))
+        .map_err(|error| format!("cannot write {}: {error}", path.display()))
 }

@@ -1,0 +1,11 @@
+//! The command `conik` as its users meet it: what it prints, what it writes, and its exit status.
+
+mod command {
+    mod bad_input;
+    mod network;
+    mod outputs;
+    mod process;
+    mod run_folder;
+    mod small_commands;
+    mod trouble;
+}

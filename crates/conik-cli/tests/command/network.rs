@@ -1,0 +1,91 @@
+//! Two processes: `conik emulate` and the `conik run` that drives it; and nobody there at all.
+
+use std::io::{BufRead, BufReader};
+use std::net::TcpListener;
+use std::path::Path;
+
+use super::process::{Running, empty_folder, paper, say};
+use super::run_folder::{Rows, summary};
+
+const RTDE_PORT: u16 = 30004;
+
+/// An emulator at the start of example 2, and its port offset: the first that is free.
+fn emulator(folder: &Path) -> (Running, u16) {
+    let example = paper("example2");
+    for offset in (1000..20_000).step_by(37) {
+        let line = format!(
+            "emulate --series cb3 --port-offset {offset} --scenario {}",
+            example.display()
+        );
+        let mut running = Running::start(folder, &line);
+        let mut said = String::new();
+        let stdout = running.child().stdout.as_mut().unwrap();
+        BufReader::new(stdout).read_line(&mut said).unwrap();
+        if said.contains(&format!("RTDE {}", RTDE_PORT + offset)) {
+            return (running, offset);
+        }
+    }
+    panic!("no free ports");
+}
+
+#[test]
+fn run_drives_an_emulator_in_another_process() {
+    let folder = empty_folder("two processes");
+    let (emulator, offset) = emulator(&folder);
+    let run = |out: &str| {
+        let example = paper("example2");
+        let line = format!(
+            "run {} --robot 127.0.0.1 --port-offset {offset} --duration-s 1 --quiet --out {out}",
+            example.display()
+        );
+        say(&folder, &line)
+    };
+    let first = run("first");
+    assert_eq!(first.status, Some(0), "{first:#?}");
+    let log = Rows::of(&folder.join("first"));
+    assert_eq!(log.rows.len(), 126);
+    assert!(log.header.ends_with(",q6_measured_rad"));
+    assert_eq!(
+        summary(&folder.join("first"))["settings"]["robot"],
+        "127.0.0.1"
+    );
+
+    // The arm now stands elsewhere: it is not driven off to the start unasked.
+    let second = run("second");
+    assert_eq!(second.status, Some(1));
+    assert!(
+        second.stderr.starts_with("error: start-away: joint "),
+        "{second:#?}"
+    );
+
+    emulator.signal("INT");
+    assert_eq!(emulator.wait().status, Some(0));
+}
+
+#[test]
+fn nobody_listening_is_a_fault_with_a_name() {
+    let folder = empty_folder("nobody");
+    let free = TcpListener::bind("127.0.0.1:0")
+        .unwrap()
+        .local_addr()
+        .unwrap()
+        .port();
+    let offset = free.checked_sub(RTDE_PORT).unwrap_or(777);
+    let line = format!(
+        "run {} --robot 127.0.0.1 --port-offset {offset} --out .",
+        paper("example2").display()
+    );
+    let said = say(&folder, &line);
+    assert_eq!(said.status, Some(1));
+    assert!(
+        said.stderr
+            .contains("error: connect-failed: no connection to 127.0.0.1:")
+    );
+    assert_eq!(
+        said.stderr.lines().count(),
+        1,
+        "one fault, one message: {said:#?}"
+    );
+    assert!(said.stdout.contains("before the first tick"), "{said:#?}");
+    assert_eq!(summary(&folder)["outcome"]["name"], "connect-failed");
+}

@@ -1,0 +1,142 @@
+//! `check`, `plot`, `schema`, `init`, `completions`, and no command at all.
+
+use std::fs;
+
+use super::process::{done, empty_folder, paper, repository, say};
+
+#[test]
+fn check_prints_robot_hierarchy_modes_and_doubts_and_writes_nothing() {
+    let folder = empty_folder("check");
+    let said = done(&folder, &format!("check {}", paper("example2").display()));
+    for part in [
+        "Example 2",
+        "robot ur5-paper",
+        "shoulder_pan_joint",
+        "high-priority set",
+        "make 6 modes",
+        "125 Hz",
+        "doubtful:",
+        "`view` starts 0.6320 outside its set",
+    ] {
+        assert!(said.contains(part), "`{part}` is missing:\n{said}");
+    }
+    assert!(fs::read_dir(&folder).unwrap().next().is_none());
+}
+
+#[test]
+fn plot_draws_the_figures_and_the_report_again() {
+    let folder = empty_folder("plot");
+    let line = format!(
+        "run {} --robot ideal --duration-s 2 --out o",
+        paper("example2").display()
+    );
+    done(&folder, &line);
+    let report = folder.join("o/report.html");
+    let before = fs::read(&report).unwrap();
+    fs::remove_file(&report).unwrap();
+
+    let said = done(&folder, "plot o");
+    assert!(
+        fs::read(&report).unwrap() == before,
+        "the report of the same run differs"
+    );
+    assert!(
+        said.contains("o/figure4.svg\n") && said.contains("o/report.html\n"),
+        "{said}"
+    );
+    for path in said.lines() {
+        assert!(fs::metadata(folder.join(path)).unwrap().len() > 0, "{path}");
+    }
+    assert_eq!(done(&folder, "plot o --quiet"), "");
+}
+
+#[test]
+fn plot_of_a_folder_without_a_log_is_bad_input() {
+    let folder = empty_folder("plot of nothing");
+    fs::create_dir(folder.join("empty")).unwrap();
+    for dir in ["empty", "no/such/folder"] {
+        let said = say(&folder, &format!("plot {dir}"));
+        assert_eq!(said.status, Some(2));
+        assert!(
+            said.stderr.starts_with(&format!("error: {dir}/")),
+            "{said:#?}"
+        );
+    }
+}
+
+#[test]
+fn schema_is_the_one_in_the_repository() {
+    let schema = fs::read_to_string(repository().join("scenarios/schema.json")).unwrap();
+    assert_eq!(done(&empty_folder("schema"), "schema"), schema);
+}
+
+#[test]
+fn template_passes_check_runs_and_is_not_overwritten() {
+    let folder = empty_folder("init");
+    let said = done(&folder, "init mine.toml");
+    assert!(said.contains("conik run mine.toml"), "{said}");
+    let written = fs::read_to_string(folder.join("mine.toml")).unwrap();
+    assert_eq!(done(&folder, "init -"), written);
+    done(&folder, "check mine.toml");
+    done(&folder, "run mine.toml --robot ideal --quiet");
+    assert!(folder.join("out/mine/report.html").exists());
+
+    fs::write(folder.join("mine.toml"), "precious").unwrap();
+    let said = say(&folder, "init mine.toml");
+    assert_eq!(said.status, Some(2));
+    assert!(
+        said.stderr.contains("mine.toml is there already"),
+        "{said:#?}"
+    );
+    assert_eq!(fs::read(folder.join("mine.toml")).unwrap(), b"precious");
+    done(&folder, "init mine.toml --force");
+    assert_eq!(
+        fs::read_to_string(folder.join("mine.toml")).unwrap(),
+        written
+    );
+    assert_eq!(say(&folder, "init no/such/folder.toml").status, Some(2));
+}
+
+#[test]
+fn completions_know_the_commands() {
+    let folder = empty_folder("completions");
+    for shell in ["bash", "zsh", "fish"] {
+        let script = done(&folder, &format!("completions {shell}"));
+        assert!(
+            script.contains("mode-rule") && script.contains("emulate"),
+            "{shell}"
+        );
+    }
+}
+
+#[test]
+fn help_is_an_answer_and_its_absence_bad_usage() {
+    let folder = empty_folder("help");
+    for command in [
+        "run",
+        "check",
+        "plot",
+        "emulate",
+        "init",
+        "schema",
+        "completions",
+    ] {
+        assert!(done(&folder, &format!("{command} --help")).contains("Usage: conik"));
+    }
+    assert!(done(&folder, "--version").starts_with("conik "));
+    for line in [
+        "",
+        "rnu",
+        "run",
+        "run a b",
+        "run a --rate-hz fast",
+        "run a --robot=",
+    ] {
+        let said = say(&folder, line);
+        assert_eq!(said.status, Some(2), "conik {line}");
+        assert!(
+            said.stderr.contains("--help") && said.stdout.is_empty(),
+            "{said:#?}"
+        );
+    }
+}
