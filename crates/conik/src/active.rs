@@ -45,6 +45,17 @@ impl ActiveSet {
         self.words.iter().zip(&other.words).any(|(a, b)| a & b != 0)
     }
 
+    /// The tasks in either set.
+    #[inline]
+    #[must_use]
+    pub fn union(&self, other: &Self) -> Self {
+        let mut words = self.words;
+        for (word, other) in words.iter_mut().zip(&other.words) {
+            *word |= other;
+        }
+        Self { words }
+    }
+
     /// Whether no task is in the set.
     #[inline]
     pub fn is_empty(&self) -> bool {

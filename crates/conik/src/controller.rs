@@ -1,13 +1,18 @@
 //! The controller: from a configuration to the next joint reference, once per period.
 
+use alloc::boxed::Box;
 use alloc::vec::Vec;
 
+use crate::active::ActiveSet;
+use crate::border::Borders;
 use crate::evaluation::Evaluation;
 use crate::joints::JointVec;
 use crate::kinematics::Kinematics;
-use crate::mode::ModeSearch;
+use crate::landing::{Approach, Landed, Landing};
+use crate::mode::{ModeSearch, Nearest, NearestTick};
 use crate::robot::Robot;
-use crate::settings::Settings;
+use crate::settings::{Border, ModeRule, Settings};
+use crate::sides::Held;
 use crate::stack::{Setpoints, Stack};
 use crate::step::{SpeedLimit, Step};
 use crate::task_id::TaskId;
@@ -15,20 +20,45 @@ use crate::task_id::TaskId;
 /// A kinematic controller for one robot and one stack of tasks: the block of that name in Fig. 2 of
 /// the paper.
 ///
-/// [`step`](Self::step) does not allocate, lock, log or call the system. Its time is bounded by the
-/// number of modes that the rule can choose from: with n candidates for activation and d joints, at
-/// most Σₖ C(n, k) velocities, k = 0 … min(n, d) for high-priority sets. Candidates are all sets
-/// with rule `Paper`, and those at their border, rarely more than two, with rule `Border`.
+/// [`step`](Self::step) does not allocate, lock, log or call the system, and its work is bounded:
+///
+/// * border `Land` computes the kinematics of at most 9 configurations a tick, `Freeze` of one;
+/// * all quadratic programs of a tick, those of rule `Cone` and those of `Land`, share
+///   [`MAX_PIVOTS`] pivots;
+/// * rules `Paper` and `Border` compute at most Σₖ C(n, k) velocities, k = 0 … min(n, joints), n being
+///   the number of high-priority sets that may be active: all with `Paper`, those at their border,
+///   rarely more than two, with `Border`.
 #[derive(Debug)]
 pub struct Controller {
     stack: Stack,
     settings: Settings,
     period: f64,
-    evaluation: Evaluation,
-    modes: ModeSearch,
+    /// The robot at q.
+    here: Evaluation,
+    /// The robot where the last tick landed: the next q, as a rule.
+    there: Evaluation,
+    borders: Borders,
+    rule: Rule,
+    landing: Landing,
     /// Greatest speed of each joint; infinite where there is none.
     speed_limits: Vec<f64>,
     step: Step,
+}
+
+/// Pivots that the quadratic programs of one tick may take together.
+pub const MAX_PIVOTS: usize = 60;
+
+#[derive(Debug)]
+enum Rule {
+    Search(ModeSearch),
+    Nearest(Box<Nearest>),
+}
+
+/// What a rule proposes for a tick.
+struct Proposal {
+    active: Option<ActiveSet>,
+    held: Held,
+    modes_evaluated: usize,
 }
 
 /// Why a controller could not be made.
@@ -93,8 +123,16 @@ impl Controller {
         Ok(Self {
             period: 1.0 / settings.rate_hz,
             settings,
-            evaluation: Evaluation::new(robot, &stack),
-            modes: ModeSearch::new(&stack),
+            here: Evaluation::new(robot, &stack),
+            there: Evaluation::new(robot, &stack),
+            borders: Borders::new(settings.border, &stack),
+            rule: match settings.mode_rule {
+                ModeRule::Paper | ModeRule::Border => {
+                    Rule::Search(ModeSearch::new(&stack, &settings))
+                }
+                ModeRule::Cone => Rule::Nearest(Box::new(Nearest::new(&stack, &settings))),
+            },
+            landing: Landing::new(&stack, 1.0 / settings.rate_hz),
             speed_limits: robot
                 .joints()
                 .iter()
@@ -111,38 +149,108 @@ impl Controller {
     /// `q = controller.step(&q)?.q_ref`.
     pub fn step(&mut self, q: &[f64]) -> Result<&Step, StepError> {
         self.check(q)?;
-        let mut qd = JointVec::zeros(q.len());
-        self.evaluation.update(&self.stack, q);
-        if let Some(task) = self.evaluation.not_finite() {
+        if self.there.is_at(q) {
+            core::mem::swap(&mut self.here, &mut self.there);
+        }
+        self.here.update(&self.stack, q);
+        if let Some(task) = self.here.not_finite() {
             return Err(StepError::TaskNotFinite { task });
         }
-        let active = self.modes.choose(
-            self.settings.mode_rule,
-            &self.stack,
-            &mut self.evaluation,
-            &mut qd,
-        );
-        if active.is_none() {
-            qd.fill(0.0);
-        }
+        self.borders.observe(&self.stack, &self.here);
+
+        let mut qd = JointVec::zeros(q.len());
+        let mut pivots = MAX_PIVOTS;
+        let proposal = self.propose(&mut qd, &mut pivots);
         if let Some(joint) = qd.iter().position(|v| !v.is_finite()) {
             return Err(StepError::VelocityNotFinite { joint });
         }
         let speed_limit = scale_to_limits(&mut qd, &self.speed_limits);
+        let mut q_ref = JointVec::zeros(q.len());
+        let landed = self.arrive(
+            q,
+            &proposal.held,
+            speed_limit.is_some(),
+            &mut qd,
+            &mut q_ref,
+            &mut pivots,
+        );
 
         let step = &mut self.step;
         for i in 0..q.len() {
             step.qdd[i] = (qd[i] - step.qd[i]) / self.period;
-            step.q_ref[i] = q[i] + self.period * qd[i];
         }
+        step.q_ref = q_ref;
         step.qd = qd;
         step.speed_limit = speed_limit;
-        step.no_mode = active.is_none();
-        step.active = active.unwrap_or_default();
-        step.modes_evaluated = self.modes.evaluated();
-        step.values.copy_from(self.evaluation.values());
-        step.errors.copy_from(self.evaluation.errors());
+        step.no_mode = proposal.active.is_none();
+        step.active = proposal.active.unwrap_or_default();
+        step.modes_evaluated = proposal.modes_evaluated;
+        step.pivots = MAX_PIVOTS - pivots;
+        step.landed = landed;
+        step.values.copy_from(self.here.values());
+        step.errors.copy_from(self.here.errors());
         Ok(step)
+    }
+
+    /// The velocity of the mode that the rule chooses.
+    fn propose(&mut self, qd: &mut JointVec, pivots: &mut usize) -> Proposal {
+        match &mut self.rule {
+            Rule::Search(search) => {
+                let active = search.choose(&self.stack, &self.borders, &mut self.here, qd);
+                if active.is_none() {
+                    qd.fill(0.0);
+                }
+                Proposal {
+                    held: self
+                        .borders
+                        .held(&self.stack, &active.unwrap_or_default(), &self.here),
+                    active,
+                    modes_evaluated: search.evaluated(),
+                }
+            }
+            Rule::Nearest(nearest) => {
+                let mut tick = NearestTick {
+                    stack: &self.stack,
+                    evaluation: &mut self.here,
+                    borders: &self.borders,
+                    pivots,
+                };
+                let active = nearest.choose(&mut tick, qd);
+                Proposal {
+                    active: Some(active),
+                    held: nearest.held(),
+                    modes_evaluated: 0,
+                }
+            }
+        }
+    }
+
+    /// q_ref = q + T q̇; with border `Land`, after changing q̇ until that is inside every set entered.
+    fn arrive(
+        &mut self,
+        q: &[f64],
+        held: &Held,
+        is_scaled: bool,
+        qd: &mut JointVec,
+        q_ref: &mut JointVec,
+        pivots: &mut usize,
+    ) -> Landed {
+        if self.settings.border == Border::Freeze {
+            for i in 0..q.len() {
+                q_ref[i] = q[i] + self.period * qd[i];
+            }
+            return Landed::default();
+        }
+        let mut approach = Approach {
+            stack: &self.stack,
+            here: &mut self.here,
+            there: &mut self.there,
+            borders: &self.borders,
+            speed_limits: &self.speed_limits,
+            pivots,
+        };
+        self.landing
+            .land(&mut approach, q, held, is_scaled, qd, q_ref)
     }
 
     fn check(&self, q: &[f64]) -> Result<(), StepError> {
@@ -164,7 +272,10 @@ impl Controller {
     /// # Panics
     /// If `q` has not one entry per joint.
     pub fn kinematics_at(&mut self, q: &[f64]) -> &Kinematics {
-        self.evaluation.kinematics_at(q)
+        if self.there.is_at(q) {
+            core::mem::swap(&mut self.here, &mut self.there);
+        }
+        self.here.kinematics_at(q)
     }
 
     /// The last tick; all zeros before the first.
@@ -190,7 +301,7 @@ impl Controller {
 
 /// Scales the whole velocity so that every joint is within its speed limit. Scaling keeps each J q̇
 /// in its cone, clamping single joints does not.
-fn scale_to_limits(qd: &mut [f64], limits: &[f64]) -> Option<SpeedLimit> {
+pub(crate) fn scale_to_limits(qd: &mut [f64], limits: &[f64]) -> Option<SpeedLimit> {
     let mut bound: Option<SpeedLimit> = None;
     for (joint, (speed, limit)) in qd.iter().zip(limits).enumerate() {
         let factor = limit / speed.abs();

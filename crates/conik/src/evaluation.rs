@@ -39,6 +39,11 @@ impl Evaluation {
         &self.kinematics
     }
 
+    /// Whether the robot is at `q`.
+    pub(crate) fn is_at(&self, q: &[f64]) -> bool {
+        **self.kinematics.q() == *q
+    }
+
     /// Values of all tasks at `q`, and errors of the equality tasks. Jacobians wait to be asked for.
     pub(crate) fn update(&mut self, stack: &Stack, q: &[f64]) {
         self.kinematics.update(q);

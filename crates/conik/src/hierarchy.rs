@@ -2,13 +2,17 @@
 //!
 //! With the rows of the active high-priority sets frozen on top, each further level adds
 //! N J⁺ σ̇_ref, N the null-space projector of all rows above it: Eqs. (19) to (34) of the paper
-//! (Chiaverini's singularity-robust form, ref. \[23\] there).
+//! (Chiaverini's singularity-robust form, ref. \[23\] there). Siciliano and Slotine's form adds
+//! (J N)⁺ (σ̇_ref − J q̇) instead, q̇ being the velocity of the levels above, and is damped where J N
+//! loses a direction.
 
 use alloc::vec::Vec;
 
 use crate::active::ActiveSet;
 use crate::evaluation::Evaluation;
-use crate::linalg::{MinimumNorm, RowSpace, add_scaled};
+use crate::linalg::{Damped, MinimumNorm, RowSpace, add_scaled, dot};
+use crate::real::sqrt;
+use crate::settings::{Recursion, Settings};
 use crate::stack::{Goal, Stack};
 use crate::task_id::TaskId;
 
@@ -18,6 +22,9 @@ pub(crate) struct Hierarchy {
     /// the levels above the present one.
     above: RowSpace,
     minimum_norm: MinimumNorm,
+    damped: Damped,
+    recursion: Recursion,
+    period: f64,
     /// The equality tasks, and the sets below the first of them, in list order.
     lower: Vec<TaskId>,
     /// J⁺ σ̇_ref of each lower level: the same in every mode, so computed once per tick.
@@ -27,11 +34,13 @@ pub(crate) struct Hierarchy {
     rate: Vec<f64>,
     /// N J⁺ σ̇_ref of the level at hand.
     projected: Vec<f64>,
+    /// J N of the level at hand.
+    rows: Vec<f64>,
     dof: usize,
 }
 
 impl Hierarchy {
-    pub(crate) fn new(stack: &Stack) -> Self {
+    pub(crate) fn new(stack: &Stack, settings: &Settings) -> Self {
         let dof = stack.dof();
         let max_rows = stack
             .iter()
@@ -46,6 +55,10 @@ impl Hierarchy {
         Self {
             above: RowSpace::new(dof, max_rows),
             minimum_norm: MinimumNorm::new(dof, max_rows),
+            damped: Damped::new(dof, max_rows),
+            recursion: settings.recursion,
+            period: 1.0 / settings.rate_hz,
+            rows: alloc::vec![0.0; max_rows * dof],
             asked: alloc::vec![0.0; lower.len() * dof],
             asked_known: alloc::vec![false; lower.len()],
             lower,
@@ -103,46 +116,90 @@ impl Hierarchy {
             if let Some(previous) = rows_missing.replace(task) {
                 self.above.push_block(evaluation.jacobian(stack, previous));
             }
-            if !self.asked_known[place] {
-                self.ask(stack, evaluation, place);
-            }
-            let asked = &self.asked[place * self.dof..][..self.dof];
-            if self.above.rank() == 0 {
-                add_scaled(velocity, 1.0, asked);
-            } else {
-                self.projected.copy_from_slice(asked);
-                self.above.project_out(&mut self.projected);
-                add_scaled(velocity, 1.0, &self.projected);
+            match self.recursion {
+                Recursion::Chiaverini => self.add_projected(stack, evaluation, place, velocity),
+                Recursion::SicilianoSlotine => self.add_fitted(stack, evaluation, task, velocity),
             }
         }
         self.above.truncate(frozen);
     }
 
-    /// J⁺ σ̇_ref of one lower level.
-    fn ask(&mut self, stack: &Stack, evaluation: &mut Evaluation, place: usize) {
-        let task = self.lower[place];
-        let rate = &mut self.rate[..stack[task].task().dimension()];
-        match stack[task].goal() {
-            Goal::Equality {
-                desired_rate, gain, ..
-            } => {
-                for ((rate, error), feed_forward) in rate
-                    .iter_mut()
-                    .zip(evaluation.errors().of(task))
-                    .zip(desired_rate)
-                {
-                    *rate = feed_forward + gain * error;
-                }
-            }
-            Goal::Set { interval, gain } => {
-                // Eq. (28): towards the bound that was crossed. `Stack` insists on the gain.
-                let sigma = evaluation.scalar(task);
-                rate[0] = gain.unwrap_or(0.0) * (interval.nearest_bound(sigma) - sigma);
+    /// q̇ += N J⁺ σ̇_ref
+    fn add_projected(
+        &mut self,
+        stack: &Stack,
+        evaluation: &mut Evaluation,
+        place: usize,
+        velocity: &mut [f64],
+    ) {
+        let asked = &mut self.asked[place * self.dof..][..self.dof];
+        if !self.asked_known[place] {
+            let task = self.lower[place];
+            let rate = rate_asked(stack, evaluation, task, &mut self.rate);
+            self.minimum_norm
+                .solve(evaluation.jacobian(stack, task), rate, asked);
+            self.asked_known[place] = true;
+        }
+        if self.above.rank() == 0 {
+            add_scaled(velocity, 1.0, asked);
+        } else {
+            self.projected.copy_from_slice(asked);
+            self.above.project_out(&mut self.projected);
+            add_scaled(velocity, 1.0, &self.projected);
+        }
+    }
+
+    /// q̇ += (J N)⁺ (σ̇_ref − J q̇)
+    fn add_fitted(
+        &mut self,
+        stack: &Stack,
+        evaluation: &mut Evaluation,
+        task: TaskId,
+        velocity: &mut [f64],
+    ) {
+        let gap = rate_asked(stack, evaluation, task, &mut self.rate);
+        let lambda_squared = self.period * sqrt(dot(gap, gap));
+        let jacobian = evaluation.jacobian(stack, task);
+        let rows = &mut self.rows[..jacobian.len()];
+        rows.copy_from_slice(jacobian);
+        for (gap, row) in gap.iter_mut().zip(rows.chunks_exact_mut(self.dof)) {
+            *gap -= dot(row, velocity);
+            self.above.project_out(row);
+        }
+        if self.damped.is_regular(rows) {
+            self.damped.add_regular(rows, gap, velocity);
+        } else {
+            self.damped
+                .add_by_direction(rows, gap, lambda_squared, velocity);
+        }
+    }
+}
+
+/// σ̇_ref of a level, as many entries as it has components.
+fn rate_asked<'a>(
+    stack: &Stack,
+    evaluation: &Evaluation,
+    task: TaskId,
+    rate: &'a mut [f64],
+) -> &'a mut [f64] {
+    let rate = &mut rate[..stack[task].task().dimension()];
+    match stack[task].goal() {
+        Goal::Equality {
+            desired_rate, gain, ..
+        } => {
+            for ((rate, error), feed_forward) in rate
+                .iter_mut()
+                .zip(evaluation.errors().of(task))
+                .zip(desired_rate)
+            {
+                *rate = feed_forward + gain * error;
             }
         }
-        let asked = &mut self.asked[place * self.dof..][..self.dof];
-        self.minimum_norm
-            .solve(evaluation.jacobian(stack, task), rate, asked);
-        self.asked_known[place] = true;
+        Goal::Set { interval, gain } => {
+            // Eq. (28): towards the bound that was crossed. `Stack` insists on the gain.
+            let sigma = evaluation.scalar(task);
+            rate[0] = gain.unwrap_or(0.0) * (interval.nearest_bound(sigma) - sigma);
+        }
     }
+    rate
 }

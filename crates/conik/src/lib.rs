@@ -56,6 +56,7 @@
 extern crate alloc;
 
 mod active;
+mod border;
 mod cone;
 mod controller;
 mod dependence;
@@ -64,12 +65,14 @@ mod geometry;
 mod hierarchy;
 mod joints;
 mod kinematics;
+mod landing;
 mod linalg;
 mod mode;
 mod monitor;
 mod real;
 mod robot;
 mod settings;
+mod sides;
 mod stack;
 mod step;
 mod task;
@@ -79,11 +82,12 @@ mod waypoints;
 
 pub use active::{ActiveSet, MAX_TASKS};
 pub use cone::Interval;
-pub use controller::{Controller, ControllerError, StepError};
+pub use controller::{Controller, ControllerError, MAX_PIVOTS, StepError};
 pub use dependence::dependent_tasks;
 pub use geometry::{Pose, Vec3};
 pub use joints::{JointVec, MAX_JOINTS, TooManyJoints};
 pub use kinematics::{Frame, Kinematics};
+pub use landing::Landed;
 pub use mode::ModeOrder;
 pub use monitor::{Deviation, Monitor, PROPERTY_TOLERANCE, Properties, TaskHistory};
 pub use robot::{DhRow, Joint, JointKind, JointLimits, Robot, RobotError};

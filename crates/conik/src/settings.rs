@@ -10,6 +10,10 @@ pub enum ModeRule {
     /// The same, but only tasks at or outside their border may be active.
     #[default]
     Border,
+    /// At each level the velocity nearest to what the task asks, among those that keep every
+    /// high-priority set inside its tangent cone. Freezes nothing that would not leave, and does not
+    /// depend on the order of the sets.
+    Cone,
 }
 
 /// What happens at the border of a set between samples.
@@ -21,6 +25,9 @@ pub enum Border {
     /// control period.
     #[default]
     Freeze,
+    /// The next sample of every high-priority set is computed before it is committed, and corrected
+    /// until it is inside: every sample lies in every set that was ever entered.
+    Land,
 }
 
 /// How the velocity of a level is fitted under the levels above.
@@ -31,6 +38,9 @@ pub enum Recursion {
     /// projected.
     #[default]
     Chiaverini,
+    /// q̇ ← q̇ + (J N)⁺ (σ̇_ref − J q̇): each level is fitted to what the levels above leave of it. Exact
+    /// while feasible; damped where a level loses a direction to the levels above.
+    SicilianoSlotine,
 }
 
 /// How a [`Controller`](crate::Controller) works.

@@ -2,6 +2,7 @@
 
 use crate::active::ActiveSet;
 use crate::joints::JointVec;
+use crate::landing::Landed;
 use crate::real::sqrt;
 use crate::stack::Stack;
 use crate::task_id::TaskId;
@@ -23,8 +24,12 @@ pub struct Step {
     pub speed_limit: Option<SpeedLimit>,
     /// Whether the exclusions left no mode that keeps every set. The arm then stands still.
     pub no_mode: bool,
-    /// Number of modes whose velocity was computed.
+    /// Number of modes whose velocity was computed, by the rules `Paper` and `Border`.
     pub modes_evaluated: usize,
+    /// Number of pivots of the quadratic programs, by the rule `Cone` and border `Land`.
+    pub pivots: usize,
+    /// What it took to land, with border `Land`.
+    pub landed: Landed,
     pub(crate) values: TaskVectors,
     pub(crate) errors: TaskVectors,
 }
@@ -49,6 +54,8 @@ impl Step {
             speed_limit: None,
             no_mode: false,
             modes_evaluated: 0,
+            pivots: 0,
+            landed: Landed::default(),
             values: TaskVectors::zeros(stack),
             errors: TaskVectors::zeros(stack),
         }

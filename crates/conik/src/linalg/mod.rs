@@ -1,9 +1,14 @@
-//! The linear algebra that the recursion needs: orthonormal bases of row spaces, and minimum-norm
-//! least squares. Both decide ranks; neither allocates after construction.
+//! The linear algebra of the method: orthonormal bases of row spaces, least squares of minimum norm
+//! or damped, and small quadratic programs. Nothing here allocates after construction.
 
+mod damped;
+mod dual_active_set;
 mod minimum_norm;
 mod row_space;
+mod symmetric;
 
+pub(crate) use damped::Damped;
+pub(crate) use dual_active_set::{Constraints, DualActiveSet, Solution};
 pub(crate) use minimum_norm::MinimumNorm;
 pub(crate) use row_space::RowSpace;
 

@@ -37,11 +37,62 @@ impl RowSpace {
         self.rank
     }
 
+    /// The orthonormal rows after the first `rank`.
+    pub(crate) fn basis_from(&self, rank: usize) -> &[f64] {
+        &self.basis[rank * self.dof..self.rank * self.dof]
+    }
+
     /// Forgets all rows but the first `rank` of the basis.
     #[inline]
     pub(crate) fn truncate(&mut self, rank: usize) {
         debug_assert!(rank <= self.rank);
         self.rank = rank;
+    }
+
+    /// Takes over the span of another.
+    pub(crate) fn copy_from(&mut self, other: &Self) {
+        self.rank = other.rank;
+        let used = self.rank * self.dof;
+        self.basis[..used].copy_from_slice(&other.basis[..used]);
+    }
+
+    /// Writes orthonormal rows that span what is left free, and returns how many.
+    pub(crate) fn complement(&self, span: &mut [f64]) -> usize {
+        let (dof, rank) = (self.dof, self.rank);
+        span.fill(0.0);
+        if rank == 0 {
+            for k in 0..dof {
+                span[k * dof + k] = 1.0;
+            }
+            return dof;
+        }
+        // Of each unit vector, the squared length that is left beside all rows so far. The longest
+        // is next; it is at least 1 / √dof long.
+        let mut left = [1.0; MAX_JOINTS];
+        let take_from = |left: &mut [f64], row: &[f64]| {
+            for (left, entry) in left.iter_mut().zip(row) {
+                *left -= entry * entry;
+            }
+        };
+        for row in self.basis[..rank * dof].chunks_exact(dof) {
+            take_from(&mut left[..dof], row);
+        }
+        for found in 0..dof - rank {
+            let (done, rest) = span.split_at_mut(found * dof);
+            let row = &mut rest[..dof];
+            row[largest(&left[..dof])] = 1.0;
+            // Twice is enough.
+            for _ in 0..2 {
+                project_out(&self.basis[..rank * dof], row);
+                project_out(done, row);
+            }
+            let length = sqrt(dot(row, row));
+            for entry in row.iter_mut() {
+                *entry /= length;
+            }
+            take_from(&mut left[..dof], row);
+        }
+        dof - rank
     }
 
     /// Adds one row. `false` if it depends on the rows before it and so adds nothing.
@@ -111,6 +162,16 @@ impl RowSpace {
     pub(crate) fn project_out(&self, v: &mut [f64]) {
         project_out(&self.basis[..self.rank * self.dof], v);
     }
+}
+
+fn largest(values: &[f64]) -> usize {
+    let mut best = 0;
+    for (i, value) in values.iter().enumerate() {
+        if *value > values[best] {
+            best = i;
+        }
+    }
+    best
 }
 
 #[inline]

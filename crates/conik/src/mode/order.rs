@@ -58,11 +58,11 @@ impl ModeOrder {
                 break;
             }
             if active.contains(set.id) {
-                closed = union(&closed, &set.excluded);
+                closed = closed.union(&set.excluded);
                 missing -= 1;
             } else if !closed.contains(set.id) {
                 // Every mode that has this task instead, with what it shares with `active` so far.
-                let closed_with = union(&closed, &set.excluded);
+                let closed_with = closed.union(&set.excluded);
                 before = before.checked_add(count.subsets(missing - 1, i + 1, closed_with)?)?;
             }
         }
@@ -110,17 +110,13 @@ impl Count<'_> {
         // Without the entangled task, and with it.
         let mut without = closed;
         without.insert(set.id);
-        let with = union(&without, &set.excluded);
+        let with = without.union(&set.excluded);
         let fewer = match size {
             0 => 0,
             _ => self.subsets(size - 1, from, with)?,
         };
         self.subsets(size, from, without)?.checked_add(fewer)
     }
-}
-
-fn union(a: &ActiveSet, b: &ActiveSet) -> ActiveSet {
-    a.iter().chain(b.iter()).collect()
 }
 
 fn binomial(n: usize, k: usize) -> Option<u64> {

@@ -18,10 +18,11 @@
 use alloc::vec::Vec;
 
 use crate::active::ActiveSet;
+use crate::border::Borders;
 use crate::evaluation::Evaluation;
 use crate::hierarchy::Hierarchy;
 use crate::linalg::dot;
-use crate::settings::ModeRule;
+use crate::settings::{ModeRule, Settings};
 use crate::stack::Stack;
 use crate::task_id::TaskId;
 
@@ -32,6 +33,7 @@ const STILL: f64 = 1e-12;
 #[derive(Debug)]
 pub(crate) struct ModeSearch {
     hierarchy: Hierarchy,
+    rule: ModeRule,
     sets: Vec<TaskId>,
     /// Sets that the rule allows to be active this tick, in list order.
     candidates: Vec<TaskId>,
@@ -43,22 +45,24 @@ pub(crate) struct ModeSearch {
 /// What one tick's search works on.
 struct Tick<'a> {
     stack: &'a Stack,
+    borders: &'a Borders,
     evaluation: &'a mut Evaluation,
     velocity: &'a mut [f64],
 }
 
 impl ModeSearch {
-    pub(crate) fn new(stack: &Stack) -> Self {
+    pub(crate) fn new(stack: &Stack, settings: &Settings) -> Self {
         let sets: Vec<TaskId> = stack
             .iter()
             .filter(|(_, level)| level.interval().is_some())
             .map(|(id, _)| id)
             .collect();
         Self {
-            hierarchy: Hierarchy::new(stack),
+            hierarchy: Hierarchy::new(stack, settings),
             candidates: Vec::with_capacity(sets.len()),
             at_border: Vec::with_capacity(sets.len()),
             sets,
+            rule: settings.mode_rule,
             evaluated: 0,
         }
     }
@@ -72,12 +76,12 @@ impl ModeSearch {
     /// keeps every set.
     pub(crate) fn choose(
         &mut self,
-        rule: ModeRule,
         stack: &Stack,
+        borders: &Borders,
         evaluation: &mut Evaluation,
         velocity: &mut [f64],
     ) -> Option<ActiveSet> {
-        self.begin_tick(rule, stack, evaluation);
+        self.begin_tick(borders, evaluation);
         let high = self
             .candidates
             .iter()
@@ -86,6 +90,7 @@ impl ModeSearch {
         let low = self.candidates.len() - high;
         let mut tick = Tick {
             stack,
+            borders,
             evaluation,
             velocity,
         };
@@ -93,19 +98,17 @@ impl ModeSearch {
             .find_map(|size| self.first_of_size(&mut tick, size, 0, ActiveSet::EMPTY))
     }
 
-    fn begin_tick(&mut self, rule: ModeRule, stack: &Stack, evaluation: &Evaluation) {
+    fn begin_tick(&mut self, borders: &Borders, evaluation: &Evaluation) {
         self.evaluated = 0;
         self.hierarchy.begin_tick();
         self.candidates.clear();
         self.at_border.clear();
         for &task in &self.sets {
-            let at_border = stack[task]
-                .interval()
-                .is_some_and(|set| set.is_at_border(evaluation.scalar(task)));
+            let at_border = borders.is_at_border(task, evaluation.scalar(task));
             if at_border {
                 self.at_border.push(task);
             }
-            if at_border || rule == ModeRule::Paper {
+            if at_border || self.rule == ModeRule::Paper {
                 self.candidates.push(task);
             }
         }
@@ -157,9 +160,7 @@ impl ModeSearch {
                 let rate = dot(tick.evaluation.jacobian(tick.stack, task), tick.velocity);
                 let rate = if rate.abs() <= STILL { 0.0 } else { rate };
                 let sigma = tick.evaluation.scalar(task);
-                tick.stack[task]
-                    .interval()
-                    .is_none_or(|set| set.tangent_cone_contains(rate, sigma))
+                tick.borders.tangent_cone_contains(task, rate, sigma)
             })
     }
 }

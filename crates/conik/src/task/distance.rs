@@ -60,6 +60,10 @@ impl Task for Distance {
         kinematics.point_row(self.frame, direction, jacobian.row(0));
     }
 
+    fn bend(&self, sigma: f64) -> f64 {
+        1.0 / (sigma + DENOMINATOR_EPSILON)
+    }
+
     fn unit(&self) -> &'static str {
         "m"
     }

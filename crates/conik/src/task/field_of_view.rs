@@ -58,6 +58,10 @@ impl Task for FieldOfView {
         kinematics.axis_row(self.frame, direction, jacobian.row(0));
     }
 
+    fn bend(&self, sigma: f64) -> f64 {
+        1.0 / (sigma + DENOMINATOR_EPSILON)
+    }
+
     fn unit(&self) -> &'static str {
         "-"
     }

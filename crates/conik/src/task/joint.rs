@@ -33,6 +33,10 @@ impl Task for JointPosition {
         row[self.index] = 1.0;
     }
 
+    fn bend(&self, _sigma: f64) -> f64 {
+        0.0
+    }
+
     fn unit(&self) -> &'static str {
         "rad"
     }

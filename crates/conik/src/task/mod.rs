@@ -44,6 +44,12 @@ pub trait Task: Any + Debug + Send {
         }
     }
 
+    /// How strongly the task bends: an estimate of the second derivative of σ along a joint motion of
+    /// 1 rad [task's unit/rad²], where its value is `sigma`. The damping at a border is chosen by it.
+    fn bend(&self, _sigma: f64) -> f64 {
+        1.0
+    }
+
     /// Unit of the value, for people: `m`, `rad`, `-`.
     fn unit(&self) -> &'static str;
 

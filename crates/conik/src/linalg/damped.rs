@@ -1,0 +1,219 @@
+//! Damped least squares, the damping decided direction by direction.
+//!
+//! ```text
+//! min |A z − g|² + zᵀ R z ,   R = l₀² I + λ² (I − P − Σⱼ wⱼ yⱼ yⱼᵀ) ,   wⱼ = min(1, (sⱼ / ε)²)
+//! ```
+//!
+//! P projects on the rows that are held, and sⱼ and yⱼ are singular values and right singular vectors
+//! of what A has left beside them. Along held rows nothing is damped: whether they would be left is
+//! asked of the task as it is. A direction with sⱼ ≥ ε is not damped at all; one that the rows have lost (sⱼ → 0) is damped
+//! with λ². Damping all directions for the one that an obstacle takes away would slow the others.
+//!
+//! l₀ only makes the problem strictly convex.
+
+use alloc::vec::Vec;
+
+use super::symmetric::{cholesky, eigenvectors, solve_lower, solve_lower_transposed};
+use super::{add_scaled, dot};
+use crate::real::sqrt;
+
+/// l₀: weight of the velocity itself [task's unit per rad].
+const STRICT: f64 = 1e-3;
+
+/// ε: singular values below this are damped [task's unit per rad].
+pub(crate) const SINGULAR: f64 = 0.2;
+
+/// Singular values below this have no direction [task's unit per rad].
+const NO_DIRECTION: f64 = 1e-9;
+
+#[derive(Debug)]
+pub(crate) struct Damped {
+    /// Gram matrix of the usable rows, its factor, or its eigenvalues.
+    gram: Vec<f64>,
+    eigenvectors: Vec<f64>,
+    /// The yⱼ, one after the other, and their wⱼ.
+    directions: Vec<f64>,
+    weights: Vec<f64>,
+    rhs: Vec<f64>,
+    hessian: Vec<f64>,
+    dof: usize,
+    count: usize,
+}
+
+impl Damped {
+    pub(crate) fn new(dof: usize, max_rows: usize) -> Self {
+        Self {
+            gram: alloc::vec![0.0; max_rows * max_rows],
+            eigenvectors: alloc::vec![0.0; max_rows * max_rows],
+            directions: alloc::vec![0.0; max_rows * dof],
+            weights: Vec::with_capacity(max_rows),
+            rhs: alloc::vec![0.0; max_rows],
+            hessian: alloc::vec![0.0; dof * dof],
+            dof,
+            count: 0,
+        }
+    }
+
+    fn fill_gram(&mut self, rows: &[f64], shift: f64) {
+        let (dof, n) = (self.dof, rows.len() / self.dof);
+        self.count = n;
+        for i in 0..n {
+            for j in 0..=i {
+                let entry = dot(&rows[i * dof..][..dof], &rows[j * dof..][..dof]);
+                self.gram[i * n + j] = entry;
+                self.gram[j * n + i] = entry;
+            }
+            self.gram[i * n + i] += shift;
+        }
+    }
+
+    /// Whether every singular value of the rows is at least ε, so that nothing is damped.
+    pub(crate) fn is_regular(&mut self, rows: &[f64]) -> bool {
+        self.fill_gram(rows, -SINGULAR * SINGULAR);
+        cholesky(&mut self.gram, self.count)
+    }
+
+    /// x += the solution for rows all of whose directions are undamped: Aᵀ (A Aᵀ + l₀² I)⁻¹ g.
+    pub(crate) fn add_regular(&mut self, rows: &[f64], g: &[f64], x: &mut [f64]) {
+        self.fill_gram(rows, STRICT * STRICT);
+        let n = self.count;
+        self.rhs[..n].copy_from_slice(g);
+        // Positive definite by the shift, unless a task gave NaN, which shows in x.
+        cholesky(&mut self.gram, n);
+        solve_lower(&self.gram, n, &mut self.rhs[..n]);
+        solve_lower_transposed(&self.gram, n, &mut self.rhs[..n]);
+        for (row, y) in rows.chunks_exact(self.dof).zip(&self.rhs[..n]) {
+            add_scaled(x, *y, row);
+        }
+    }
+
+    /// x += Aᵀ (A Aᵀ + (1 − (s/ε)²) λ² I)⁻¹ g, s the smallest singular value: all directions damped
+    /// alike, more the nearer the rows are to losing rank.
+    pub(crate) fn add_damped(
+        &mut self,
+        rows: &[f64],
+        g: &[f64],
+        lambda_squared: f64,
+        x: &mut [f64],
+    ) {
+        self.fill_gram(rows, 0.0);
+        let n = self.count;
+        eigenvectors(&mut self.gram, n, &mut self.eigenvectors);
+        let least = (0..n)
+            .map(|k| self.gram[k * n + k])
+            .fold(f64::INFINITY, f64::min)
+            .max(0.0);
+        let shift =
+            lambda_squared * (1.0 - least / (SINGULAR * SINGULAR)).max(0.0) + STRICT * STRICT;
+        self.fill_gram(rows, shift);
+        self.rhs[..n].copy_from_slice(g);
+        cholesky(&mut self.gram, n);
+        solve_lower(&self.gram, n, &mut self.rhs[..n]);
+        solve_lower_transposed(&self.gram, n, &mut self.rhs[..n]);
+        for (row, y) in rows.chunks_exact(self.dof).zip(&self.rhs[..n]) {
+            add_scaled(x, *y, row);
+        }
+    }
+
+    /// x += the solution for rows that may all be used, every direction damped by its own singular
+    /// value: Σⱼ yⱼ sⱼ (uⱼ g) / (sⱼ² + l₀² + (1 − wⱼ) λ²).
+    pub(crate) fn add_by_direction(
+        &mut self,
+        rows: &[f64],
+        g: &[f64],
+        lambda_squared: f64,
+        x: &mut [f64],
+    ) {
+        self.fill_gram(rows, 0.0);
+        let n = self.count;
+        eigenvectors(&mut self.gram, n, &mut self.eigenvectors);
+        for k in 0..n {
+            let squared = self.gram[k * n + k].max(0.0);
+            let weight = (squared / (SINGULAR * SINGULAR)).min(1.0);
+            let vector = &self.eigenvectors[k * n..][..n];
+            let share =
+                dot(vector, g) / (squared + STRICT * STRICT + (1.0 - weight) * lambda_squared);
+            for (row, entry) in rows.chunks_exact(self.dof).zip(vector) {
+                add_scaled(x, share * entry, row);
+            }
+        }
+    }
+
+    /// Finds the yⱼ and wⱼ of the usable rows.
+    pub(crate) fn analyse(&mut self, usable: &[f64]) {
+        self.fill_gram(usable, 0.0);
+        let (dof, n) = (self.dof, self.count);
+        eigenvectors(&mut self.gram, n, &mut self.eigenvectors);
+        self.weights.clear();
+        for k in 0..n {
+            let singular = sqrt(self.gram[k * n + k].max(0.0));
+            if singular <= NO_DIRECTION {
+                continue;
+            }
+            let found = self.weights.len();
+            let direction = &mut self.directions[found * dof..][..dof];
+            direction.fill(0.0);
+            for (row, share) in usable
+                .chunks_exact(dof)
+                .zip(&self.eigenvectors[k * n..][..n])
+            {
+                add_scaled(direction, share / singular, row);
+            }
+            let ratio = singular / SINGULAR;
+            self.weights.push((ratio * ratio).min(1.0));
+        }
+    }
+
+    /// Rows B, orthonormal in H = AᵀA + R, that span what the orthonormal rows `span` span. R is that of
+    /// the last analysis, P that of the orthonormal rows `held`.
+    pub(crate) fn weighted_basis(
+        &mut self,
+        rows: &[f64],
+        lambda_squared: f64,
+        held: &[f64],
+        span: &[f64],
+        basis: &mut [f64],
+    ) {
+        let (dof, n) = (self.dof, span.len() / self.dof);
+        let hessian = &mut self.hessian[..n * n];
+        hessian.fill(0.0);
+        for i in 0..n {
+            hessian[i * n + i] = STRICT * STRICT + lambda_squared;
+        }
+        let mut add_outer = |row: &[f64], weight: f64| {
+            let mut shares = [0.0; crate::MAX_JOINTS];
+            for (share, direction) in shares.iter_mut().zip(span.chunks_exact(dof)) {
+                *share = dot(direction, row);
+            }
+            for i in 0..n {
+                add_scaled(
+                    &mut hessian[i * n..=i * n + i],
+                    weight * shares[i],
+                    &shares[..=i],
+                );
+            }
+        };
+        for row in rows.chunks_exact(dof) {
+            add_outer(row, 1.0);
+        }
+        for direction in held.chunks_exact(dof) {
+            add_outer(direction, -lambda_squared);
+        }
+        for (direction, weight) in self.directions.chunks_exact(dof).zip(&self.weights) {
+            add_outer(direction, -lambda_squared * weight);
+        }
+        cholesky(hessian, n);
+        // B = L⁻¹ span, row by row.
+        basis[..n * dof].copy_from_slice(&span[..n * dof]);
+        for i in 0..n {
+            let (done, row) = basis.split_at_mut(i * dof);
+            let row = &mut row[..dof];
+            for (earlier, share) in done.chunks_exact(dof).zip(&hessian[i * n..]) {
+                add_scaled(row, -share, earlier);
+            }
+            for value in row.iter_mut() {
+                *value /= hessian[i * n + i];
+            }
+        }
+    }
+}

@@ -1,0 +1,219 @@
+//! One level of the rule `cone`: a small strictly convex quadratic program.
+//!
+//! ```text
+//! siciliano-slotine   min |J q̇ − s|² + |q̇ − q̇₀|²_R          s: what the task asks, σ̇_ref
+//! chiaverini          min |q̇ − q̇₀ − N J⁺ s|²                q̇₀: the velocity of the levels above
+//!                     over q̇ = q̇₀ + motions that the levels above have left free
+//!                     subject to a q̇ ≥ b for every side of a high-priority set
+//! ```
+//!
+//! R is the damping of [`Damped`], with λ² = T (l |s| + Σ μ c): near a point where the arm comes to
+//! rest, a tick is a gradient step, and it is stable only if the damping exceeds half a period times
+//! the curvature of what holds it there. |s| stands for the curvature of the task, with l = 1 m for
+//! the reach of the arm; a set that pushes back with multiplier μ adds its own, μ c.
+
+use alloc::vec::Vec;
+
+use crate::linalg::{
+    Constraints, Damped, DualActiveSet, MinimumNorm, RowSpace, Solution, add_scaled, dot,
+};
+use crate::real::sqrt;
+use crate::settings::{Recursion, Settings};
+use crate::sides::{Held, Sides};
+use crate::stack::Stack;
+
+#[derive(Debug)]
+pub(crate) struct LevelProgram {
+    recursion: Recursion,
+    period: f64,
+    solver: DualActiveSet,
+    damped: Damped,
+    minimum_norm: MinimumNorm,
+    /// The answer.
+    velocity: Vec<f64>,
+    /// J, or J N.
+    rows: Vec<f64>,
+    /// What of J N is left beside the held sides.
+    usable: Vec<f64>,
+    /// s, or s − J q̇₀.
+    gap: Vec<f64>,
+    /// Rows of the levels above and of the held sides.
+    taken: RowSpace,
+    /// Orthonormal rows that span the free motions.
+    free: Vec<f64>,
+    dof: usize,
+}
+
+/// What a level works on.
+pub(crate) struct Level<'a> {
+    /// J, row after row.
+    pub(crate) jacobian: &'a [f64],
+    /// s [task's unit/s].
+    pub(crate) asked: &'a [f64],
+    /// q̇₀ [rad/s].
+    pub(crate) from: &'a [f64],
+    /// The rows of the levels above.
+    pub(crate) above: &'a RowSpace,
+    pub(crate) sides: &'a Sides,
+    /// b, one for each side.
+    pub(crate) bounds: &'a [f64],
+    /// Σ μ c [task's unit/s].
+    pub(crate) push_back: f64,
+}
+
+impl LevelProgram {
+    pub(crate) fn new(stack: &Stack, settings: &Settings) -> Self {
+        let dof = stack.dof();
+        let max_rows = stack
+            .iter()
+            .map(|(_, l)| l.task().dimension())
+            .max()
+            .unwrap_or(1);
+        Self {
+            recursion: settings.recursion,
+            period: 1.0 / settings.rate_hz,
+            solver: DualActiveSet::new(dof),
+            damped: Damped::new(dof, max_rows),
+            minimum_norm: MinimumNorm::new(dof, max_rows),
+            velocity: alloc::vec![0.0; dof],
+            rows: Vec::with_capacity(max_rows * dof),
+            usable: Vec::with_capacity(max_rows * dof),
+            gap: Vec::with_capacity(max_rows),
+            taken: RowSpace::new(dof, max_rows),
+            free: alloc::vec![0.0; dof * dof],
+            dof,
+        }
+    }
+
+    /// Solves the program. `held` are the sides that the damping may count on to be held, `equal` the
+    /// sides, by index, that are to be held whatever the task asks.
+    pub(crate) fn solve(
+        &mut self,
+        level: &Level<'_>,
+        held: &Held,
+        equal: &[usize],
+        pivots: &mut usize,
+    ) -> Solution {
+        self.solver.clear();
+        self.rows.clear();
+        self.rows.extend_from_slice(level.jacobian);
+        self.gap.clear();
+        self.gap.extend_from_slice(level.asked);
+        self.velocity.copy_from_slice(level.from);
+        match self.recursion {
+            Recursion::Chiaverini => self.project(level),
+            Recursion::SicilianoSlotine => {
+                if self.fit(level, held, !equal.is_empty()) {
+                    return Solution::Optimal;
+                }
+            }
+        }
+        let constraints = Constraints {
+            rows: level.sides.rows(),
+            bounds: level.bounds,
+            equalities: equal,
+        };
+        self.solver.solve(&mut self.velocity, constraints, pivots)
+    }
+
+    /// The velocity of the last solution [rad/s].
+    pub(crate) fn velocity(&self) -> &[f64] {
+        &self.velocity
+    }
+
+    /// The sides, by index, that bind in the last solution, with their multipliers.
+    pub(crate) fn binding(&self) -> impl Iterator<Item = (usize, f64)> {
+        self.solver
+            .active()
+            .iter()
+            .copied()
+            .zip(self.solver.multipliers().iter().copied())
+    }
+
+    /// Siciliano and Slotine's recursion: the free minimiser, and a basis in its weight. `true` if the
+    /// minimiser already keeps every side; the basis is then not there.
+    fn fit(&mut self, level: &Level<'_>, held: &Held, must_hold: bool) -> bool {
+        for (gap, row) in self
+            .gap
+            .iter_mut()
+            .zip(self.rows.chunks_exact_mut(self.dof))
+        {
+            *gap -= dot(row, level.from);
+            level.above.project_out(row);
+        }
+        self.take_held(level, held);
+        let nothing_held = self.taken.rank() == level.above.rank();
+        if nothing_held && !must_hold && self.damped.is_regular(&self.usable) {
+            self.damped
+                .add_regular(&self.rows, &self.gap, &mut self.velocity);
+            if keeps_every_side(level, &self.velocity) {
+                return true;
+            }
+            self.velocity.copy_from_slice(level.from);
+        }
+        let asked = sqrt(dot(level.asked, level.asked));
+        let lambda_squared = self.period * (asked + level.push_back);
+        self.damped.analyse(&self.usable);
+        let dimension = level.above.complement(&mut self.free);
+        let free = &self.free[..dimension * self.dof];
+        let taken = self.taken.basis_from(level.above.rank());
+        let basis = self.solver.basis_mut(dimension);
+        self.damped
+            .weighted_basis(&self.rows, lambda_squared, taken, free, basis);
+        // H⁻¹ = BᵀB on the free motions, so the minimiser is q̇₀ + BᵀB Jᵀ gap.
+        for direction in basis.chunks_exact(self.dof) {
+            let pull: f64 = self
+                .rows
+                .chunks_exact(self.dof)
+                .zip(&self.gap)
+                .map(|(row, gap)| dot(direction, row) * gap)
+                .sum();
+            add_scaled(&mut self.velocity, pull, direction);
+        }
+        false
+    }
+
+    /// taken ← rows of the levels above and of the held sides; usable ← what of J N is left.
+    fn take_held(&mut self, level: &Level<'_>, held: &Held) {
+        self.taken.copy_from(level.above);
+        for (side, row) in level.sides.iter() {
+            if held.contains(side) {
+                self.taken.push(row);
+            }
+        }
+        self.usable.clear();
+        self.usable.extend_from_slice(&self.rows);
+        if self.taken.rank() > level.above.rank() {
+            for row in self.usable.chunks_exact_mut(self.dof) {
+                self.taken.project_out(row);
+            }
+        }
+    }
+
+    /// Chiaverini's recursion: q̇₀ + N J⁺ s, and an orthonormal basis.
+    fn project(&mut self, level: &Level<'_>) {
+        let mut motion = [0.0; crate::MAX_JOINTS];
+        let motion = &mut motion[..self.dof];
+        if self.damped.is_regular(&self.rows) {
+            self.minimum_norm.solve(&self.rows, &self.gap, motion);
+        } else {
+            let lambda_squared = self.period * sqrt(dot(&self.gap, &self.gap));
+            self.damped
+                .add_damped(&self.rows, &self.gap, lambda_squared, motion);
+        }
+        level.above.project_out(motion);
+        add_scaled(&mut self.velocity, 1.0, motion);
+        let dimension = level.above.complement(&mut self.free);
+        self.solver
+            .basis_mut(dimension)
+            .copy_from_slice(&self.free[..dimension * self.dof]);
+    }
+}
+
+fn keeps_every_side(level: &Level<'_>, velocity: &[f64]) -> bool {
+    level
+        .sides
+        .iter()
+        .zip(level.bounds)
+        .all(|((_, row), bound)| dot(row, velocity) >= *bound)
+}
