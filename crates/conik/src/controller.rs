@@ -50,7 +50,7 @@ pub const MAX_PIVOTS: usize = 60;
 
 #[derive(Debug)]
 enum Rule {
-    Search(ModeSearch),
+    Search(Box<ModeSearch>),
     Nearest(Box<Nearest>),
 }
 
@@ -128,7 +128,7 @@ impl Controller {
             borders: Borders::new(settings.border, &stack),
             rule: match settings.mode_rule {
                 ModeRule::Paper | ModeRule::Border => {
-                    Rule::Search(ModeSearch::new(&stack, &settings))
+                    Rule::Search(Box::new(ModeSearch::new(&stack, &settings)))
                 }
                 ModeRule::Cone => Rule::Nearest(Box::new(Nearest::new(&stack, &settings))),
             },
