@@ -11,7 +11,8 @@ use std::hint::black_box;
 use std::time::Instant;
 
 use conik::{
-    FieldOfView, JacobianMut, JointVec, Kinematics, ModeRule, Position, Robot, Settings, Task,
+    Border, FieldOfView, JacobianMut, JointVec, Kinematics, ModeRule, Position, Recursion, Robot,
+    Settings, Task,
 };
 use paper::Example;
 
@@ -27,8 +28,16 @@ fn main() {
     );
     kinematics();
     for (number, start) in [(1, "thesis"), (2, "thesis"), (3, "thesis"), (2, "bench")] {
-        for mode_rule in [ModeRule::Paper, ModeRule::Border] {
-            example(number, start, mode_rule);
+        for settings in [
+            Settings::of_the_paper(),
+            Settings {
+                mode_rule: ModeRule::Cone,
+                border: Border::Land,
+                recursion: Recursion::SicilianoSlotine,
+                ..Settings::at_rate(125.0)
+            },
+        ] {
+            example(number, start, settings);
         }
     }
 }
@@ -75,16 +84,12 @@ fn kinematics() {
     );
 }
 
-fn example(number: u8, start: &str, mode_rule: ModeRule) {
+fn example(number: u8, start: &str, settings: Settings) {
     let q0 = match start {
         "thesis" => paper::thesis(),
         _ => [
             -0.913_794, -2.850_336, -1.496_087, -1.936_762, -2.484_59, 1.611_513,
         ],
-    };
-    let settings = Settings {
-        mode_rule,
-        ..Settings::of_the_paper()
     };
     let mut example = Example::new(number, q0, settings);
     let run: Vec<(JointVec, [f64; 3])> = (0..TICKS)
@@ -94,7 +99,7 @@ fn example(number: u8, start: &str, mode_rule: ModeRule) {
             (q, example.waypoints.target().to_array())
         })
         .collect();
-    let name = format!("example {number}, {mode_rule:?}, start {start}").to_lowercase();
+    let name = format!("example {number}, {:?}, start {start}", settings.mode_rule).to_lowercase();
     let (position, mut controller) = (example.position, example.controller);
     report(&name, &run, |(q, target)| {
         controller
@@ -106,6 +111,14 @@ fn example(number: u8, start: &str, mode_rule: ModeRule) {
 }
 
 fn report<T>(name: &str, inputs: &[T], mut work: impl FnMut(&T)) {
+    // `cargo bench --bench step -- WORDS` measures only what has the words in its name.
+    let wanted: Vec<String> = std::env::args()
+        .skip(1)
+        .filter(|word| !word.starts_with('-'))
+        .collect();
+    if !wanted.iter().all(|word| name.contains(word.as_str())) {
+        return;
+    }
     let mut single = Vec::new();
     let mut batches = Vec::new();
     for _ in 0..ROUNDS {

@@ -304,9 +304,11 @@ impl Controller {
 pub(crate) fn scale_to_limits(qd: &mut [f64], limits: &[f64]) -> Option<SpeedLimit> {
     let mut bound: Option<SpeedLimit> = None;
     for (joint, (speed, limit)) in qd.iter().zip(limits).enumerate() {
-        let factor = limit / speed.abs();
-        if factor < bound.map_or(1.0, |bound| bound.factor) {
-            bound = Some(SpeedLimit { joint, factor });
+        if speed.abs() > *limit {
+            let factor = limit / speed.abs();
+            if factor < bound.map_or(1.0, |bound| bound.factor) {
+                bound = Some(SpeedLimit { joint, factor });
+            }
         }
     }
     if let Some(SpeedLimit { factor, .. }) = bound {

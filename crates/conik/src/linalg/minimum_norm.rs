@@ -6,8 +6,16 @@
 
 use alloc::vec::Vec;
 
+use super::symmetric::{cholesky, solve_lower, solve_lower_transposed};
 use super::{ENOUGH_LENGTH_KEPT, NO_LENGTH, RANK_TOLERANCE, add_scaled, dot};
 use crate::real::sqrt;
+
+/// Jacobians of at most this many rows may take the short way by the normal equations.
+const SHORT: usize = 6;
+
+/// The short way is taken while the squared pivots stay above this share of the largest squared row:
+/// its error is then below 1e-12 of the solution.
+const WELL_CONDITIONED: f64 = 1e-4;
 
 #[derive(Debug)]
 pub(crate) struct MinimumNorm {
@@ -37,6 +45,48 @@ impl MinimumNorm {
 
     /// x ← J⁺ s. Returns the rank of J.
     pub(crate) fn solve(&mut self, jacobian: &[f64], s: &[f64], x: &mut [f64]) -> usize {
+        if self.solve_normal(jacobian, s, x) {
+            return s.len();
+        }
+        self.solve_orthogonal(jacobian, s, x)
+    }
+
+    /// x ← Jᵀ (J Jᵀ)⁻¹ s, the short way. `false` unless J is so well conditioned that nothing is lost
+    /// by squaring it.
+    fn solve_normal(&mut self, jacobian: &[f64], s: &[f64], x: &mut [f64]) -> bool {
+        let (dof, count) = (self.dof, s.len());
+        if count > SHORT {
+            return false;
+        }
+        let mut gram = [0.0; SHORT * SHORT];
+        for (i, row) in jacobian.chunks_exact(dof).enumerate() {
+            for (j, other) in jacobian.chunks_exact(dof).enumerate().take(i + 1) {
+                gram[i * count + j] = dot(row, other);
+            }
+        }
+        let largest = (0..count).map(|i| gram[i * count + i]).fold(0.0, f64::max);
+        if !cholesky(&mut gram, count) {
+            return false;
+        }
+        let least = (0..count)
+            .map(|i| gram[i * count + i])
+            .fold(f64::INFINITY, f64::min);
+        if !(least * least > WELL_CONDITIONED * largest) {
+            return false;
+        }
+        let y = &mut self.rhs[..count];
+        y.copy_from_slice(s);
+        solve_lower(&gram, count, y);
+        solve_lower_transposed(&gram, count, y);
+        x.fill(0.0);
+        for (row, y) in jacobian.chunks_exact(dof).zip(y.iter()) {
+            add_scaled(x, *y, row);
+        }
+        true
+    }
+
+    /// x ← J⁺ s by the complete orthogonal decomposition.
+    fn solve_orthogonal(&mut self, jacobian: &[f64], s: &[f64], x: &mut [f64]) -> usize {
         let count = s.len();
         self.rows[..jacobian.len()].copy_from_slice(jacobian);
         self.rhs[..count].copy_from_slice(s);
@@ -173,6 +223,14 @@ mod tests {
         let mut solver = MinimumNorm::new(dof, count);
         let mut x = alloc::vec![0.0; dof];
         assert_eq!(solver.solve(jacobian, s, &mut x), expected_rank);
+        let mut other_way = x.clone();
+        assert_eq!(
+            solver.solve_orthogonal(jacobian, s, &mut other_way),
+            expected_rank
+        );
+        for (a, b) in x.iter().zip(&other_way) {
+            assert!((a - b).abs() <= 1e-9 * (1.0 + a.abs()), "{a} or {b}");
+        }
         let residual: Vec<f64> = jacobian
             .chunks_exact(dof)
             .zip(s)

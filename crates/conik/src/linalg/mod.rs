@@ -25,14 +25,32 @@ const ENOUGH_LENGTH_KEPT: f64 = 0.7;
 /// Rows shorter than this have no direction: their squared length is not a normal number.
 const NO_LENGTH: f64 = 1e-150;
 
+/// Rows of six entries are the common case, and loops of known length the fast one: six entries are
+/// three pairs. The generic loops stay for every other robot.
+const COMMON: usize = 6;
+
 #[inline]
 pub(crate) fn dot(a: &[f64], b: &[f64]) -> f64 {
+    if let (Ok(a), Ok(b)) = (<&[f64; COMMON]>::try_from(a), <&[f64; COMMON]>::try_from(b)) {
+        let even = a[0] * b[0] + a[2] * b[2] + a[4] * b[4];
+        let odd = a[1] * b[1] + a[3] * b[3] + a[5] * b[5];
+        return even + odd;
+    }
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
 /// `y += factor * x`
 #[inline]
 pub(crate) fn add_scaled(y: &mut [f64], factor: f64, x: &[f64]) {
+    if let (Ok(y), Ok(x)) = (
+        <&mut [f64; COMMON]>::try_from(&mut *y),
+        <&[f64; COMMON]>::try_from(x),
+    ) {
+        for (y, x) in y.iter_mut().zip(x) {
+            *y += factor * x;
+        }
+        return;
+    }
     for (y, x) in y.iter_mut().zip(x) {
         *y += factor * x;
     }
