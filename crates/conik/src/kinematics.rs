@@ -94,8 +94,28 @@ impl Kinematics {
         }
     }
 
+    /// The Jacobian of the origin of `frame`, Eq. (5) of the paper: `rows` is its x, y and z row, each
+    /// of one entry per joint [m/rad, or 1 for a prismatic joint].
+    #[inline]
+    pub fn point_rows(&self, frame: Frame, rows: [&mut [f64]; 3]) {
+        let point = self.base_from(frame).origin;
+        let [x, y, z] = rows;
+        self.fill_row(frame, z, |kind, joint| match kind {
+            JointKind::Revolute => joint.z_axis.cross(point - joint.origin).z,
+            JointKind::Prismatic => joint.z_axis.z,
+        });
+        self.fill_row(frame, y, |kind, joint| match kind {
+            JointKind::Revolute => joint.z_axis.cross(point - joint.origin).y,
+            JointKind::Prismatic => joint.z_axis.y,
+        });
+        self.fill_row(frame, x, |kind, joint| match kind {
+            JointKind::Revolute => joint.z_axis.cross(point - joint.origin).x,
+            JointKind::Prismatic => joint.z_axis.x,
+        });
+    }
+
     /// One row of the Jacobian of the origin of `frame`: `row · q̇` is the speed [m/s] of that
-    /// origin along `direction`. Eq. (5) of the paper is three such rows.
+    /// origin along `direction`.
     #[inline]
     pub fn point_row(&self, frame: Frame, direction: Vec3, row: &mut [f64]) {
         let point = self.base_from(frame).origin;

@@ -79,6 +79,16 @@ impl<'a> JacobianMut<'a> {
     pub fn row(&mut self, i: usize) -> &mut [f64] {
         &mut self.entries[i * self.dof..][..self.dof]
     }
+
+    /// The first N rows at once, one entry per joint.
+    ///
+    /// # Panics
+    /// If the task has fewer components.
+    #[inline]
+    pub fn rows<const N: usize>(&mut self) -> [&mut [f64]; N] {
+        let mut rows = self.entries.chunks_exact_mut(self.dof);
+        core::array::from_fn(|_| rows.next().expect("the task has as many components"))
+    }
 }
 
 /// Reports a frame that a robot of `dof` joints does not have.

@@ -1,7 +1,6 @@
 //! Position of a frame's origin: σ = p(q) ∈ ℝ³, Eqs. (4) and (5).
 
 use super::{JacobianMut, Task, check_frame};
-use crate::geometry::Vec3;
 use crate::kinematics::{Frame, Kinematics};
 
 /// Position of the origin of a frame in the base frame [m], dimension 3.
@@ -34,14 +33,7 @@ impl Task for Position {
 
     #[inline]
     fn jacobian(&self, kinematics: &Kinematics, jacobian: &mut JacobianMut<'_>) {
-        const AXES: [Vec3; 3] = [
-            Vec3::new(1.0, 0.0, 0.0),
-            Vec3::new(0.0, 1.0, 0.0),
-            Vec3::new(0.0, 0.0, 1.0),
-        ];
-        for (i, axis) in AXES.into_iter().enumerate() {
-            kinematics.point_row(self.frame, axis, jacobian.row(i));
-        }
+        kinematics.point_rows(self.frame, jacobian.rows());
     }
 
     fn unit(&self) -> &'static str {
