@@ -167,13 +167,34 @@ impl Kinematics {
     #[inline]
     fn fill_row(&self, frame: Frame, row: &mut [f64], entry: impl Fn(&TwoTwists, usize) -> f64) {
         let (pairs, last) = row.as_chunks_mut::<2>();
-        for (values, twists) in pairs.iter_mut().zip(&self.twists) {
-            *values = [entry(twists, 0), entry(twists, 1)];
+        if let (Ok(pairs), Some(twists)) = (
+            <&mut [_; 3]>::try_from(&mut *pairs),
+            self.twists.first_chunk(),
+        ) {
+            // Six joints are the common case, and a loop of known length the fast one.
+            fill_pairs::<3>(pairs, twists, entry);
+        } else {
+            for (values, twists) in pairs.iter_mut().zip(&self.twists) {
+                *values = [entry(twists, 0), entry(twists, 1)];
+            }
+            if let ([value], Some(twists)) = (last, self.twists.last()) {
+                *value = entry(twists, 0);
+            }
         }
-        if let ([value], Some(twists)) = (last, self.twists.last()) {
-            *value = entry(twists, 0);
+        for still in &mut row[self.joints_before(frame)..] {
+            *still = 0.0;
         }
-        row[self.joints_before(frame)..].fill(0.0);
+    }
+}
+
+#[inline]
+fn fill_pairs<const N: usize>(
+    pairs: &mut [[f64; 2]; N],
+    twists: &[TwoTwists; N],
+    entry: impl Fn(&TwoTwists, usize) -> f64,
+) {
+    for (values, twists) in pairs.iter_mut().zip(twists) {
+        *values = [entry(twists, 0), entry(twists, 1)];
     }
 }
 

@@ -56,6 +56,19 @@ pub(crate) fn add_scaled(y: &mut [f64], factor: f64, x: &[f64]) {
     }
 }
 
+/// `y = x`
+#[inline]
+pub(crate) fn copy(y: &mut [f64], x: &[f64]) {
+    if let (Ok(y), Ok(x)) = (
+        <&mut [f64; COMMON]>::try_from(&mut *y),
+        <&[f64; COMMON]>::try_from(x),
+    ) {
+        *y = *x;
+        return;
+    }
+    y.copy_from_slice(x);
+}
+
 /// Index of the longest row.
 fn longest(rows: &[f64], dof: usize) -> usize {
     let mut best = (0, 0.0);
