@@ -9,10 +9,10 @@ use crate::evaluation::Evaluation;
 use crate::joints::JointVec;
 use crate::kinematics::Kinematics;
 use crate::landing::{Approach, Landed, Landing};
+use crate::linalg::{copy, not_finite};
 use crate::mode::{ModeSearch, Nearest, NearestTick};
 use crate::robot::Robot;
 use crate::settings::{Border, ModeRule, Settings};
-use crate::sides::Held;
 use crate::stack::{Setpoints, Stack};
 use crate::step::{SpeedLimit, Step};
 use crate::task_id::TaskId;
@@ -42,6 +42,9 @@ pub struct Controller {
     landing: Landing,
     /// Greatest speed of each joint; infinite where there is none.
     speed_limits: Vec<f64>,
+    /// q̇ and q + T q̇ while a tick is at work; in `step` they stand when it has succeeded.
+    qd: JointVec,
+    q_ref: JointVec,
     step: Step,
 }
 
@@ -57,7 +60,6 @@ enum Rule {
 /// What a rule proposes for a tick.
 struct Proposal {
     active: Option<ActiveSet>,
-    held: Held,
     modes_evaluated: usize,
 }
 
@@ -138,6 +140,8 @@ impl Controller {
                 .iter()
                 .map(|joint| joint.limits.speed.unwrap_or(f64::INFINITY))
                 .collect(),
+            qd: JointVec::zeros(robot.dof()),
+            q_ref: JointVec::zeros(robot.dof()),
             step: Step::at_rest(&stack),
             stack,
         })
@@ -158,29 +162,21 @@ impl Controller {
         }
         self.borders.observe(&self.stack, &self.here);
 
-        let mut qd = JointVec::zeros(q.len());
         let mut pivots = MAX_PIVOTS;
-        let proposal = self.propose(&mut qd, &mut pivots);
-        if let Some(joint) = qd.iter().position(|v| !v.is_finite()) {
+        let proposal = self.propose(&mut pivots);
+        if let Some(joint) = not_finite(&self.qd) {
             return Err(StepError::VelocityNotFinite { joint });
         }
-        let speed_limit = scale_to_limits(&mut qd, &self.speed_limits);
-        let mut q_ref = JointVec::zeros(q.len());
-        let landed = self.arrive(
-            q,
-            &proposal.held,
-            speed_limit.is_some(),
-            &mut qd,
-            &mut q_ref,
-            &mut pivots,
-        );
+        let speed_limit = scale_to_limits(&mut self.qd, &self.speed_limits);
+        let landed = self.arrive(q, &proposal, speed_limit.is_some(), &mut pivots);
 
         let step = &mut self.step;
-        for i in 0..q.len() {
-            step.qdd[i] = (qd[i] - step.qd[i]) / self.period;
+        let changes = step.qdd.iter_mut().zip(step.qd.iter().zip(self.qd.iter()));
+        for (qdd, (before, now)) in changes {
+            *qdd = (now - before) * self.settings.rate_hz;
         }
-        step.q_ref = q_ref;
-        step.qd = qd;
+        copy(&mut step.q_ref, &self.q_ref);
+        copy(&mut step.qd, &self.qd);
         step.speed_limit = speed_limit;
         step.no_mode = proposal.active.is_none();
         step.active = proposal.active.unwrap_or_default();
@@ -193,17 +189,15 @@ impl Controller {
     }
 
     /// The velocity of the mode that the rule chooses.
-    fn propose(&mut self, qd: &mut JointVec, pivots: &mut usize) -> Proposal {
+    fn propose(&mut self, pivots: &mut usize) -> Proposal {
         match &mut self.rule {
             Rule::Search(search) => {
-                let active = search.choose(&self.stack, &self.borders, &mut self.here, qd);
+                let active =
+                    search.choose(&self.stack, &self.borders, &mut self.here, &mut self.qd);
                 if active.is_none() {
-                    qd.fill(0.0);
+                    self.qd.fill(0.0);
                 }
                 Proposal {
-                    held: self
-                        .borders
-                        .held(&self.stack, &active.unwrap_or_default(), &self.here),
                     active,
                     modes_evaluated: search.evaluated(),
                 }
@@ -215,10 +209,8 @@ impl Controller {
                     borders: &self.borders,
                     pivots,
                 };
-                let active = nearest.choose(&mut tick, qd);
                 Proposal {
-                    active: Some(active),
-                    held: nearest.held(),
+                    active: Some(nearest.choose(&mut tick, &mut self.qd)),
                     modes_evaluated: 0,
                 }
             }
@@ -229,18 +221,23 @@ impl Controller {
     fn arrive(
         &mut self,
         q: &[f64],
-        held: &Held,
+        proposal: &Proposal,
         is_scaled: bool,
-        qd: &mut JointVec,
-        q_ref: &mut JointVec,
         pivots: &mut usize,
     ) -> Landed {
         if self.settings.border == Border::Freeze {
-            for i in 0..q.len() {
-                q_ref[i] = q[i] + self.period * qd[i];
+            for (q_ref, (q, qd)) in self.q_ref.iter_mut().zip(q.iter().zip(self.qd.iter())) {
+                *q_ref = q + self.period * qd;
             }
             return Landed::default();
         }
+        let held = match &self.rule {
+            Rule::Search(_) => {
+                let active = proposal.active.unwrap_or_default();
+                self.borders.held(&self.stack, &active, &self.here)
+            }
+            Rule::Nearest(nearest) => nearest.held(),
+        };
         let mut approach = Approach {
             stack: &self.stack,
             here: &mut self.here,
@@ -249,8 +246,14 @@ impl Controller {
             speed_limits: &self.speed_limits,
             pivots,
         };
-        self.landing
-            .land(&mut approach, q, held, is_scaled, qd, q_ref)
+        self.landing.land(
+            &mut approach,
+            q,
+            &held,
+            is_scaled,
+            &mut self.qd,
+            &mut self.q_ref,
+        )
     }
 
     fn check(&self, q: &[f64]) -> Result<(), StepError> {
@@ -260,7 +263,7 @@ impl Controller {
                 found: q.len(),
             });
         }
-        match q.iter().position(|v| !v.is_finite()) {
+        match not_finite(q) {
             Some(joint) => Err(StepError::PositionNotFinite { joint }),
             None => Ok(()),
         }
