@@ -1,20 +1,22 @@
 //! The controller: from a configuration to the next joint reference, once per period.
 
 use alloc::boxed::Box;
-use alloc::vec::Vec;
 
 use crate::active::ActiveSet;
+use crate::anchor::{Anchor, AnchorTick};
+use crate::barrier::Barrier;
 use crate::border::Borders;
 use crate::evaluation::Evaluation;
 use crate::joints::JointVec;
 use crate::kinematics::Kinematics;
 use crate::landing::{Approach, Landed, Landing};
+use crate::limits::Limits;
 use crate::mode::{ModeSearch, Nearest, NearestTick};
 use crate::robot::Robot;
 use crate::settings::{Border, ModeRule, Settings};
 use crate::sides::Held;
 use crate::stack::{Setpoints, Stack};
-use crate::step::{SpeedLimit, Step};
+use crate::step::Step;
 use crate::task_id::TaskId;
 
 /// A kinematic controller for one robot and one stack of tasks: the block of that name in Fig. 2 of
@@ -38,10 +40,11 @@ pub struct Controller {
     /// The robot where the last tick landed: the next q, as a rule.
     there: Evaluation,
     borders: Borders,
+    barrier: Barrier,
+    anchor: Anchor,
+    limits: Limits,
     rule: Rule,
     landing: Landing,
-    /// Greatest speed of each joint; infinite where there is none.
-    speed_limits: Vec<f64>,
     step: Step,
 }
 
@@ -120,24 +123,24 @@ impl Controller {
                 robot: robot.dof(),
             });
         }
+        let period = 1.0 / settings.rate_hz;
+        let limits = Limits::new(robot, period);
         Ok(Self {
-            period: 1.0 / settings.rate_hz,
+            period,
             settings,
-            here: Evaluation::new(robot, &stack),
-            there: Evaluation::new(robot, &stack),
-            borders: Borders::new(settings.border, &stack),
+            here: Evaluation::new(robot, &stack, period),
+            there: Evaluation::new(robot, &stack, period),
+            borders: Borders::new(&settings, &stack),
+            barrier: Barrier::new(&stack, &settings, limits.accelerations()),
+            anchor: Anchor::new(stack.dof(), 2 * stack.len()),
+            limits,
             rule: match settings.mode_rule {
                 ModeRule::Paper | ModeRule::Border => {
                     Rule::Search(Box::new(ModeSearch::new(&stack, &settings)))
                 }
                 ModeRule::Cone => Rule::Nearest(Box::new(Nearest::new(&stack, &settings))),
             },
-            landing: Landing::new(&stack, 1.0 / settings.rate_hz),
-            speed_limits: robot
-                .joints()
-                .iter()
-                .map(|joint| joint.limits.speed.unwrap_or(f64::INFINITY))
-                .collect(),
+            landing: Landing::new(&stack, period),
             step: Step::at_rest(&stack),
             stack,
         })
@@ -158,30 +161,38 @@ impl Controller {
         }
         self.borders.observe(&self.stack, &self.here);
 
-        let mut qd = JointVec::zeros(q.len());
         let mut pivots = MAX_PIVOTS;
+        let mut qd = JointVec::zeros(q.len());
+        self.raise_barrier(&mut pivots);
         let proposal = self.propose(&mut qd, &mut pivots);
         if let Some(joint) = qd.iter().position(|v| !v.is_finite()) {
             return Err(StepError::VelocityNotFinite { joint });
         }
-        let speed_limit = scale_to_limits(&mut qd, &self.speed_limits);
+        let anchor = self.anchor.velocity();
+        let speed_limit = self.limits.shorten_to_speed(&mut qd, anchor);
+        let acceleration_limit =
+            self.limits
+                .shorten_to_acceleration(&mut qd, anchor, &self.step.qd);
+        let is_shortened = speed_limit.is_some() || acceleration_limit.is_some();
         let mut q_ref = JointVec::zeros(q.len());
         let landed = self.arrive(
             q,
             &proposal.held,
-            speed_limit.is_some(),
+            is_shortened,
             &mut qd,
             &mut q_ref,
             &mut pivots,
         );
 
         let step = &mut self.step;
+        step.acceleration_exceeded = self.limits.exceeded(&qd, &step.qd);
         for i in 0..q.len() {
             step.qdd[i] = (qd[i] - step.qd[i]) / self.period;
         }
         step.q_ref = q_ref;
         step.qd = qd;
         step.speed_limit = speed_limit;
+        step.acceleration_limit = acceleration_limit;
         step.no_mode = proposal.active.is_none();
         step.active = proposal.active.unwrap_or_default();
         step.modes_evaluated = proposal.modes_evaluated;
@@ -192,13 +203,35 @@ impl Controller {
         Ok(step)
     }
 
+    /// What the high-priority sets allow in this tick, and a velocity that keeps them.
+    ///
+    /// The rules `Paper` and `Border` ask for the barrier only where rest is not the anchor.
+    fn raise_barrier(&mut self, pivots: &mut usize) {
+        self.anchor.rest();
+        let rest_is_enough = !self.limits.has_acceleration();
+        if matches!(self.rule, Rule::Search(_)) && rest_is_enough && self.borders.are_at_ease() {
+            return;
+        }
+        self.barrier
+            .gather(&self.stack, &self.borders, &mut self.here);
+        if rest_is_enough && self.barrier.is_at_ease() {
+            return;
+        }
+        self.anchor.find(&mut AnchorTick {
+            barrier: &mut self.barrier,
+            limits: &self.limits,
+            before: &self.step.qd,
+            pivots,
+        });
+    }
+
     /// The velocity of the mode that the rule chooses.
     fn propose(&mut self, qd: &mut JointVec, pivots: &mut usize) -> Proposal {
         match &mut self.rule {
             Rule::Search(search) => {
                 let active = search.choose(&self.stack, &self.borders, &mut self.here, qd);
                 if active.is_none() {
-                    qd.fill(0.0);
+                    qd.copy_from_slice(self.anchor.velocity());
                 }
                 Proposal {
                     held: self
@@ -212,13 +245,19 @@ impl Controller {
                 let mut tick = NearestTick {
                     stack: &self.stack,
                     evaluation: &mut self.here,
+                    barrier: &mut self.barrier,
                     borders: &self.borders,
                     pivots,
                 };
                 let active = nearest.choose(&mut tick, qd);
+                let mut held = nearest.held();
+                // What moves in from outside is not to be held where it was.
+                for &(side, _) in &self.barrier.wishes {
+                    held.remove(self.barrier.sides.get(side));
+                }
                 Proposal {
                     active: Some(active),
-                    held: nearest.held(),
+                    held,
                     modes_evaluated: 0,
                 }
             }
@@ -230,7 +269,7 @@ impl Controller {
         &mut self,
         q: &[f64],
         held: &Held,
-        is_scaled: bool,
+        is_shortened: bool,
         qd: &mut JointVec,
         q_ref: &mut JointVec,
         pivots: &mut usize,
@@ -246,11 +285,12 @@ impl Controller {
             here: &mut self.here,
             there: &mut self.there,
             borders: &self.borders,
-            speed_limits: &self.speed_limits,
+            limits: &self.limits,
+            anchor: self.anchor.velocity(),
+            held,
             pivots,
         };
-        self.landing
-            .land(&mut approach, q, held, is_scaled, qd, q_ref)
+        self.landing.land(&mut approach, q, is_shortened, qd, q_ref)
     }
 
     fn check(&self, q: &[f64]) -> Result<(), StepError> {
@@ -297,24 +337,4 @@ impl Controller {
     pub fn settings(&self) -> &Settings {
         &self.settings
     }
-}
-
-/// Scales the whole velocity so that every joint is within its speed limit. Scaling keeps each J q̇
-/// in its cone, clamping single joints does not.
-pub(crate) fn scale_to_limits(qd: &mut [f64], limits: &[f64]) -> Option<SpeedLimit> {
-    let mut bound: Option<SpeedLimit> = None;
-    for (joint, (speed, limit)) in qd.iter().zip(limits).enumerate() {
-        if speed.abs() > *limit {
-            let factor = limit / speed.abs();
-            if factor < bound.map_or(1.0, |bound| bound.factor) {
-                bound = Some(SpeedLimit { joint, factor });
-            }
-        }
-    }
-    if let Some(SpeedLimit { factor, .. }) = bound {
-        for speed in qd {
-            *speed *= factor;
-        }
-    }
-    bound
 }

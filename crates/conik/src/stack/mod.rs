@@ -32,9 +32,23 @@ pub enum Goal {
     Set {
         /// The allowed values [task's unit].
         interval: Interval,
+        /// How fast the bounds move [task's unit per second].
+        rates: BoundRates,
         /// Λ [1/s] with which a low-priority set is driven back to its border.
         gain: Option<f64>,
+        /// Speed [task's unit per second] at which a high-priority set that is outside moves back in;
+        /// without it, it is only kept from getting worse.
+        recovery: Option<f64>,
     },
+}
+
+/// How fast the two bounds of a set move [task's unit per second], positive upward.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct BoundRates {
+    /// Of the least allowed value.
+    pub min: f64,
+    /// Of the greatest allowed value.
+    pub max: f64,
 }
 
 /// One task of a stack.
@@ -158,7 +172,12 @@ impl Stack {
                 None if low_priority => Err(StackErrorReason::MissingGain),
                 None => Ok(()),
             })
-            .map(|()| Goal::Set { interval, gain });
+            .map(|()| Goal::Set {
+                interval,
+                rates: BoundRates::default(),
+                gain,
+                recovery: None,
+            });
         self.push(name, task, goal)
     }
 
