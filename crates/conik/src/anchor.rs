@@ -119,7 +119,9 @@ impl Anchor {
             if squared > 0.0 {
                 add_scaled(direction, along * row[i], row);
             }
-            direction.iter_mut().for_each(|entry| *entry /= sqrt(SOFT));
+            for entry in direction {
+                *entry /= sqrt(SOFT);
+            }
         }
         if self.solve(&mut velocity, tick.pivots) {
             let rate = dot(&self.rows[side * dof..][..dof], &velocity);
@@ -146,22 +148,12 @@ impl Anchor {
 
     /// Rows of the barrier, then those of the joints' ranges.
     fn gather(&mut self, tick: &AnchorTick<'_>, before: Option<&[f64]>) {
-        let dof = self.velocity.len();
         self.rows.clear();
         self.bounds.clear();
         self.rows.extend_from_slice(tick.barrier.sides.rows());
         self.bounds.extend_from_slice(&tick.barrier.bounds);
-        for joint in 0..dof {
-            let (least, greatest) = tick.limits.range(joint, before);
-            for (sign, bound) in [(1.0, least), (-1.0, -greatest)] {
-                if bound.is_finite() {
-                    let start = self.rows.len();
-                    self.rows.resize(start + dof, 0.0);
-                    self.rows[start + joint] = sign;
-                    self.bounds.push(bound);
-                }
-            }
-        }
+        tick.limits
+            .push_rows(before, &mut self.rows, &mut self.bounds);
     }
 
     fn solve(&mut self, velocity: &mut [f64], pivots: &mut usize) -> bool {

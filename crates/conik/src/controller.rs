@@ -286,6 +286,7 @@ impl Controller {
             there: &mut self.there,
             borders: &self.borders,
             limits: &self.limits,
+            before: &self.step.qd,
             anchor: self.anchor.velocity(),
             held,
             pivots,

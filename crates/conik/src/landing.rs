@@ -27,7 +27,7 @@ use crate::border::{Borders, MARGIN};
 use crate::evaluation::Evaluation;
 use crate::joints::JointVec;
 use crate::limits::Limits;
-use crate::linalg::{Constraints, DualActiveSet, Solution, add_scaled};
+use crate::linalg::{Constraints, DualActiveSet, Solution, add_scaled, dot};
 use crate::sides::{Held, Side, Sides, landing_rate};
 use crate::stack::Stack;
 use crate::task_id::TaskId;
@@ -68,9 +68,13 @@ pub struct Outside {
 pub(crate) struct Landing {
     solver: DualActiveSet,
     sides: Sides,
+    /// The rows of the sides, then those of the joints' ranges.
+    rows: Vec<f64>,
     bounds: Vec<f64>,
     equalities: Vec<usize>,
     change: Vec<f64>,
+    /// The trial of the least violation so far.
+    best: Option<Best>,
     period: f64,
 }
 
@@ -83,6 +87,8 @@ pub(crate) struct Approach<'a> {
     pub(crate) there: &'a mut Evaluation,
     pub(crate) borders: &'a Borders,
     pub(crate) limits: &'a Limits,
+    /// The last velocity [rad/s or m/s].
+    pub(crate) before: &'a [f64],
     /// A velocity that keeps every set to first order; rest while nothing moves.
     pub(crate) anchor: &'a [f64],
     /// Sides to be held at their margin.
@@ -90,7 +96,7 @@ pub(crate) struct Approach<'a> {
     pub(crate) pivots: &'a mut usize,
 }
 
-/// The trial of the least violation so far.
+/// A trial that was outside, and how far.
 #[derive(Clone, Copy, Debug)]
 struct Best {
     outside: Outside,
@@ -102,9 +108,11 @@ impl Landing {
         Self {
             solver: DualActiveSet::new(stack.dof()),
             sides: Sides::new(stack),
-            bounds: Vec::with_capacity(2 * stack.len()),
+            rows: Vec::with_capacity(2 * (stack.len() + stack.dof()) * stack.dof()),
+            bounds: Vec::with_capacity(2 * (stack.len() + stack.dof())),
             equalities: Vec::with_capacity(2 * stack.len()),
             change: alloc::vec![0.0; stack.dof()],
+            best: None,
             period,
         }
     }
@@ -121,7 +129,7 @@ impl Landing {
         target: &mut JointVec,
     ) -> Landed {
         let mut landed = Landed::default();
-        let mut best: Option<Best> = None;
+        self.best = None;
         self.sides.clear();
         let mut corrections = 0;
         loop {
@@ -132,10 +140,7 @@ impl Landing {
             match worst(approach, |task| approach.there.scalar(task)) {
                 None if is_shortened || is_last || approach.holds_margins() => return landed,
                 None => {}
-                Some(outside) if best.is_none_or(|best| outside.by < best.outside.by) => {
-                    best = Some(Best { outside, qd: *qd });
-                }
-                Some(_) => {}
+                Some(outside) => self.remember(outside, qd),
             }
             if !is_last && self.correct(approach, is_shortened, qd) {
                 corrections += 1;
@@ -147,7 +152,7 @@ impl Landing {
                 continue;
             }
             if landed.halvings == HALVINGS {
-                self.give_in(approach, best, qd, &mut landed);
+                self.give_in(approach, qd, &mut landed);
                 self.aim(q, qd, target);
                 return landed;
             }
@@ -166,18 +171,19 @@ impl Landing {
         }
     }
 
+    fn remember(&mut self, outside: Outside, qd: &JointVec) {
+        let is_better = |best: &Best| outside.by < best.outside.by;
+        if self.best.as_ref().is_none_or(is_better) {
+            self.best = Some(Best { outside, qd: *qd });
+        }
+    }
+
     /// No trial was inside: the arm stands still, unless that is worse than the best of them.
-    fn give_in(
-        &self,
-        approach: &mut Approach<'_>,
-        best: Option<Best>,
-        qd: &mut JointVec,
-        landed: &mut Landed,
-    ) {
+    fn give_in(&self, approach: &mut Approach<'_>, qd: &mut JointVec, landed: &mut Landed) {
         let standing = worst(approach, |task| {
             approach.here.scalar(task) + self.period * approach.here.drift(task)
         });
-        match (standing, best) {
+        match (standing, &self.best) {
             (Some(standing), Some(best)) if best.outside.by < standing.by => {
                 *qd = best.qd;
                 landed.outside = Some(best.outside);
@@ -198,6 +204,8 @@ impl Landing {
         qd: &mut JointVec,
     ) -> bool {
         self.gather(approach);
+        self.rows.clear();
+        self.rows.extend_from_slice(self.sides.rows());
         self.bounds.clear();
         self.equalities.clear();
         for (i, (side, _)) in self.sides.iter().enumerate() {
@@ -210,25 +218,47 @@ impl Landing {
                 self.equalities.push(i);
             }
         }
-        // Held sides that cannot all be met may still all be kept.
-        for equalities in [&self.equalities[..], &[]] {
-            self.change.fill(0.0);
-            self.solver.set_identity();
-            let constraints = Constraints {
-                rows: self.sides.rows(),
-                bounds: &self.bounds,
-                equalities,
-            };
-            if self
-                .solver
-                .solve(&mut self.change, constraints, approach.pivots)
-                == Solution::Optimal
-            {
-                add_scaled(qd, 1.0, &self.change);
-                return true;
+        let sides = self.bounds.len();
+        if approach.limits.has_acceleration() {
+            approach
+                .limits
+                .push_rows(Some(approach.before), &mut self.rows, &mut self.bounds);
+            let ranges = self.rows[sides * qd.len()..].chunks_exact(qd.len());
+            for (bound, row) in self.bounds[sides..].iter_mut().zip(ranges) {
+                *bound -= dot(row, qd);
             }
         }
-        false
+        // Held sides that cannot all be met may still all be kept, and sets come before accelerations.
+        let (held, all) = (self.equalities.len(), self.bounds.len());
+        let attempts = [(held, all), (0, all), (0, sides)];
+        attempts.into_iter().enumerate().any(|(i, attempt)| {
+            let (held, rows) = attempt;
+            !attempts[..i].contains(&attempt) && self.change_by_least(approach, held, rows, qd)
+        })
+    }
+
+    /// q̇ += the least change under the first `rows` rows, the first `held` held sides met exactly.
+    fn change_by_least(
+        &mut self,
+        approach: &mut Approach<'_>,
+        held: usize,
+        rows: usize,
+        qd: &mut JointVec,
+    ) -> bool {
+        self.change.fill(0.0);
+        self.solver.set_identity();
+        let constraints = Constraints {
+            rows: &self.rows,
+            bounds: &self.bounds[..rows],
+            equalities: &self.equalities[..held],
+        };
+        let solution = self
+            .solver
+            .solve(&mut self.change, constraints, approach.pivots);
+        if solution == Solution::Optimal {
+            add_scaled(qd, 1.0, &self.change);
+        }
+        solution == Solution::Optimal
     }
 
     /// All sides of the high-priority sets, once a tick.

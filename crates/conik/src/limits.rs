@@ -75,6 +75,27 @@ impl Limits {
         }
     }
 
+    /// The ranges of all joints as rows a q̇ ≥ b.
+    pub(crate) fn push_rows(
+        &self,
+        before: Option<&[f64]>,
+        rows: &mut Vec<f64>,
+        bounds: &mut Vec<f64>,
+    ) {
+        let dof = self.speed.len();
+        for joint in 0..dof {
+            let (least, greatest) = self.range(joint, before);
+            for (sign, bound) in [(1.0, least), (-1.0, -greatest)] {
+                if bound.is_finite() {
+                    let start = rows.len();
+                    rows.resize(start + dof, 0.0);
+                    rows[start + joint] = sign;
+                    bounds.push(bound);
+                }
+            }
+        }
+    }
+
     /// Shortens a velocity towards `anchor` until every joint is within its speed limit.
     pub(crate) fn shorten_to_speed(&self, qd: &mut [f64], anchor: &[f64]) -> Option<Shortened> {
         shorten(qd, anchor, |joint| self.range(joint, None))

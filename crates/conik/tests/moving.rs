@@ -72,9 +72,12 @@ fn pass(rate_hz: f64, recursion: Recursion, q0: JointVec, direction: Vec3, speed
         ..Passage::default()
     };
     let mut announced: Option<f64> = None;
-    let ticks = (2.0 * AHEAD / speed * rate_hz) as usize;
-    for tick in 0..ticks {
-        let point = start + direction * (speed * tick as f64 / rate_hz);
+    for tick in 0_u32.. {
+        let travelled = speed * f64::from(tick) / rate_hz;
+        if travelled > 2.0 * AHEAD {
+            break;
+        }
+        let point = start + direction * travelled;
         controller
             .setpoints()
             .task_mut::<Distance>(obstacle)

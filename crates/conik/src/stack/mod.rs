@@ -10,7 +10,7 @@ use alloc::vec::Vec;
 use crate::active::{ActiveSet, MAX_TASKS};
 use crate::cone::Interval;
 use crate::robot::Robot;
-use crate::task::Task;
+use crate::task::{JointPosition, Task};
 use crate::task_id::TaskId;
 pub use checks::{StackError, StackErrorReason};
 use checks::{check_desired, check_dimension, check_gain, check_set, error};
@@ -107,8 +107,34 @@ pub struct Stack {
 }
 
 impl Stack {
-    /// An empty stack for a robot.
+    /// A stack for a robot, with the position limits of its joints as its first high-priority sets:
+    /// `limit/<joint>` for each joint that has any.
     pub fn new(robot: &Robot) -> Self {
+        let mut stack = Self::without_position_limits(robot);
+        for (index, joint) in robot.joints().iter().enumerate() {
+            let limits = joint
+                .limits
+                .position
+                .map(|(min, max)| Interval { min, max });
+            if let Some(interval) = limits.filter(Interval::is_valid) {
+                stack.levels.push(Level {
+                    name: alloc::format!("limit/{}", joint.name),
+                    task: Box::new(JointPosition::of(index)),
+                    goal: Goal::Set {
+                        interval,
+                        rates: BoundRates::default(),
+                        gain: None,
+                        recovery: None,
+                    },
+                    excluded: ActiveSet::EMPTY,
+                });
+            }
+        }
+        stack
+    }
+
+    /// An empty stack for a robot, even if its joints have position limits.
+    pub fn without_position_limits(robot: &Robot) -> Self {
         Self {
             dof: robot.dof(),
             levels: Vec::new(),
