@@ -49,11 +49,11 @@ struct Passage {
 }
 
 /// A tool that wants to stay where it is, and an obstacle of 0.15 m that moves straight through it.
-fn pass(rate_hz: f64, recursion: Recursion, q0: JointVec, direction: Vec3, speed: f64) -> Passage {
+fn pass(rate_hz: f64, recursion: Recursion, q0: &JointVec, direction: Vec3, speed: f64) -> Passage {
     const RADIUS: f64 = 0.15;
     const AHEAD: f64 = 0.35;
     let mut controller = controller(settings(rate_hz, recursion), |_| {});
-    let here = tool(&mut controller, &q0);
+    let here = tool(&mut controller, q0);
     let robot = Robot::builtin("ur5-paper").expect("built in");
     let mut stack = Stack::new(&robot);
     let start = here - direction * AHEAD;
@@ -66,7 +66,7 @@ fn pass(rate_hz: f64, recursion: Recursion, q0: JointVec, direction: Vec3, speed
     let mut controller =
         Controller::new(&robot, stack, settings(rate_hz, recursion)).expect("sound");
     let obstacle = find(&controller, "obstacle");
-    let mut q = q0;
+    let mut q = *q0;
     let mut passage = Passage {
         closest: f64::INFINITY,
         ..Passage::default()
@@ -142,7 +142,7 @@ fn an_obstacle_that_moves_through_the_tool_is_avoided() {
         .run(
             &(rates, recursions, dexterous(), direction()),
             |(rate_hz, recursion, q0, direction)| {
-                let passage = pass(rate_hz, recursion, q0, direction, 0.2);
+                let passage = pass(rate_hz, recursion, &q0, direction, 0.2);
                 prop_assert!(passage.outside == 0, "{passage:?}");
                 prop_assert!(passage.closest < 0.1501, "it never came near: {passage:?}");
                 Ok(())
@@ -160,7 +160,7 @@ fn what_cannot_be_avoided_is_announced_in_the_tick_before() {
         .run(
             &(recursions, dexterous(), direction()),
             |(recursion, q0, direction)| {
-                let passage = pass(500.0, recursion, q0, direction, 5.0);
+                let passage = pass(500.0, recursion, &q0, direction, 5.0);
                 prop_assert_eq!(passage.unannounced, 0, "{:?}", passage);
                 prop_assert!(
                     passage.fastest <= std::f64::consts::PI + 1e-9,
