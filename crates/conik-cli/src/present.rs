@@ -27,7 +27,7 @@ pub fn heading(scenario: &Scenario, arm: &str) -> String {
 }
 
 /// The three choices of how the controller works.
-pub fn rules(control: &Control) -> String {
+fn rules(control: &Control) -> String {
     format!(
         "rule {}, border {}, recursion {}",
         control.mode_rule.name(),

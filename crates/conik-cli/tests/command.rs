@@ -2,6 +2,7 @@
 
 mod command {
     mod bad_input;
+    mod default_rules;
     mod network;
     mod outputs;
     mod process;
