@@ -9,7 +9,8 @@
 //!
 //! A low-priority set is a level of its own. While the velocity of the levels above keeps it, or brings
 //! it closer from outside, it is inactive and only binds the levels below. Otherwise it is active
-//! and asks: inside, to stop at the border; outside, to come back with its gain.
+//! and asks: inside, to stop at the border; outside, to come back with its gain. Once active outside
+//! it stays so until it is inside, or the levels above bring it back as fast as it asks.
 
 use alloc::vec::Vec;
 
@@ -177,15 +178,16 @@ impl Nearest {
                     } else {
                         -inside / self.period
                     };
-                    let slack = if self.held_before.contains(side) {
-                        RELEASE
+                    let asked = if inside < 0.0 { -gain * inside } else { kept };
+                    // Not released as soon as the others cease to carry it out: they may do so by turns.
+                    let needed = if self.held_before.contains(side) {
+                        asked + RELEASE
                     } else {
-                        0.0
+                        kept
                     };
-                    if rate < kept + slack {
+                    if rate < needed {
                         self.held.insert(side);
                         self.low_active.insert(task);
-                        let asked = if inside < 0.0 { -gain * inside } else { kept };
                         self.asked.push(if is_upper { -asked } else { asked });
                         return true;
                     }
