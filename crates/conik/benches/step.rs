@@ -10,10 +10,7 @@ mod paper;
 use std::hint::black_box;
 use std::time::Instant;
 
-use conik::{
-    Border, FieldOfView, JacobianMut, JointVec, Kinematics, ModeRule, Position, Recursion, Robot,
-    Settings, Task,
-};
+use conik::{FieldOfView, JacobianMut, JointVec, Kinematics, Position, Robot, Settings, Task};
 use paper::Example;
 
 const TICKS: usize = 7500;
@@ -28,15 +25,7 @@ fn main() {
     );
     kinematics();
     for (number, start) in [(1, "thesis"), (2, "thesis"), (3, "thesis"), (2, "bench")] {
-        for settings in [
-            Settings::of_the_paper(),
-            Settings {
-                mode_rule: ModeRule::Cone,
-                border: Border::Land,
-                recursion: Recursion::SicilianoSlotine,
-                ..Settings::at_rate(125.0)
-            },
-        ] {
+        for settings in [Settings::of_the_paper(), Settings::at_rate(125.0)] {
             example(number, start, settings);
         }
     }

@@ -9,7 +9,8 @@
 //!
 //! A low-priority set is a level of its own. While the velocity of the levels above keeps it, or brings
 //! it closer from outside, it is inactive and only binds the levels below. Otherwise it is active
-//! and asks: inside, to stop at the border; outside, to come back with its gain.
+//! and asks: inside, to stop at the border; outside, to come back with its gain. Once active outside
+//! it stays so until it is inside, or the levels above bring it back as fast as it asks.
 
 use alloc::vec::Vec;
 
@@ -136,23 +137,24 @@ impl Nearest {
                     let inside = side.inside(&interval, sigma);
                     let bound_rate = tick.borders.bound_rate(side);
                     let approaching = side.inward(bound_rate - tick.evaluation.drift(task));
-                    let kept = approaching
-                        + if inside < 0.0 {
-                            0.0
-                        } else {
-                            -inside / self.period
-                        };
-                    let slack = if self.held_before.contains(side) {
-                        RELEASE
+                    let (rest, back) = if inside < 0.0 {
+                        (0.0, -gain * inside)
                     } else {
-                        0.0
+                        (-inside / self.period, 0.0)
+                    };
+                    let kept = approaching + rest;
+                    let asked = kept + back;
+                    // Not released as soon as the others cease to carry it out: they may do so by turns.
+                    let needed = if self.held_before.contains(side) {
+                        asked + RELEASE
+                    } else {
+                        kept
                     };
                     let rate = side.inward(rate);
-                    if rate < kept + slack {
+                    if rate < needed {
                         self.held.insert(side);
                         self.low_active.insert(task);
-                        let back = if inside < 0.0 { -gain * inside } else { 0.0 };
-                        self.asked.push(side.inward(kept + back));
+                        self.asked.push(side.inward(asked));
                         return true;
                     }
                     if kept > f64::NEG_INFINITY {
