@@ -49,11 +49,15 @@ impl Barrier {
         }
     }
 
-    /// Gathers the sides of the high-priority sets.
-    pub(crate) fn gather(&mut self, stack: &Stack, borders: &Borders, evaluation: &mut Evaluation) {
+    /// Nothing is asked.
+    pub(crate) fn clear(&mut self) {
         self.sides.clear();
         self.bounds.clear();
         self.wishes.clear();
+    }
+
+    /// Gathers, into an empty barrier, the sides of the high-priority sets.
+    pub(crate) fn gather(&mut self, stack: &Stack, borders: &Borders, evaluation: &mut Evaluation) {
         for (task, level) in stack.iter() {
             let Goal::Set {
                 interval, recovery, ..

@@ -11,10 +11,10 @@ use crate::joints::JointVec;
 use crate::kinematics::Kinematics;
 use crate::landing::{Approach, Landed, Landing};
 use crate::limits::Limits;
+use crate::linalg::{copy, not_finite};
 use crate::mode::{ModeSearch, Nearest, NearestTick};
 use crate::robot::Robot;
 use crate::settings::{Border, ModeRule, Settings};
-use crate::sides::Held;
 use crate::stack::{Setpoints, Stack};
 use crate::step::Step;
 use crate::task_id::TaskId;
@@ -45,6 +45,9 @@ pub struct Controller {
     limits: Limits,
     rule: Rule,
     landing: Landing,
+    /// q̇ and q + T q̇ while a tick is at work; in `step` they stand when it has succeeded.
+    qd: JointVec,
+    q_ref: JointVec,
     step: Step,
 }
 
@@ -60,7 +63,6 @@ enum Rule {
 /// What a rule proposes for a tick.
 struct Proposal {
     active: Option<ActiveSet>,
-    held: Held,
     modes_evaluated: usize,
 }
 
@@ -141,6 +143,8 @@ impl Controller {
                 ModeRule::Cone => Rule::Nearest(Box::new(Nearest::new(&stack, &settings))),
             },
             landing: Landing::new(&stack, period),
+            qd: JointVec::zeros(robot.dof()),
+            q_ref: JointVec::zeros(robot.dof()),
             step: Step::at_rest(&stack),
             stack,
         })
@@ -162,35 +166,27 @@ impl Controller {
         self.borders.observe(&self.stack, &self.here);
 
         let mut pivots = MAX_PIVOTS;
-        let mut qd = JointVec::zeros(q.len());
         self.raise_barrier(&mut pivots);
-        let proposal = self.propose(&mut qd, &mut pivots);
-        if let Some(joint) = qd.iter().position(|v| !v.is_finite()) {
+        let proposal = self.propose(&mut pivots);
+        if let Some(joint) = not_finite(&self.qd) {
             return Err(StepError::VelocityNotFinite { joint });
         }
         let anchor = self.anchor.velocity();
-        let speed_limit = self.limits.shorten_to_speed(&mut qd, anchor);
+        let speed_limit = self.limits.shorten_to_speed(&mut self.qd, anchor);
         let acceleration_limit =
             self.limits
-                .shorten_to_acceleration(&mut qd, anchor, &self.step.qd);
+                .shorten_to_acceleration(&mut self.qd, anchor, &self.step.qd);
         let is_shortened = speed_limit.is_some() || acceleration_limit.is_some();
-        let mut q_ref = JointVec::zeros(q.len());
-        let landed = self.arrive(
-            q,
-            &proposal.held,
-            is_shortened,
-            &mut qd,
-            &mut q_ref,
-            &mut pivots,
-        );
+        let landed = self.arrive(q, &proposal, is_shortened, &mut pivots);
 
         let step = &mut self.step;
-        step.acceleration_exceeded = self.limits.exceeded(&qd, &step.qd);
-        for i in 0..q.len() {
-            step.qdd[i] = (qd[i] - step.qd[i]) / self.period;
+        step.acceleration_exceeded = self.limits.exceeded(&self.qd, &step.qd);
+        let changes = step.qdd.iter_mut().zip(step.qd.iter().zip(self.qd.iter()));
+        for (qdd, (before, now)) in changes {
+            *qdd = (now - before) * self.settings.rate_hz;
         }
-        step.q_ref = q_ref;
-        step.qd = qd;
+        copy(&mut step.q_ref, &self.q_ref);
+        copy(&mut step.qd, &self.qd);
         step.speed_limit = speed_limit;
         step.acceleration_limit = acceleration_limit;
         step.no_mode = proposal.active.is_none();
@@ -208,6 +204,7 @@ impl Controller {
     /// The rules `Paper` and `Border` ask for the barrier only where rest is not the anchor.
     fn raise_barrier(&mut self, pivots: &mut usize) {
         self.anchor.rest();
+        self.barrier.clear();
         let rest_is_enough = !self.limits.has_acceleration();
         if matches!(self.rule, Rule::Search(_)) && rest_is_enough && self.borders.are_at_ease() {
             return;
@@ -226,17 +223,15 @@ impl Controller {
     }
 
     /// The velocity of the mode that the rule chooses.
-    fn propose(&mut self, qd: &mut JointVec, pivots: &mut usize) -> Proposal {
+    fn propose(&mut self, pivots: &mut usize) -> Proposal {
         match &mut self.rule {
             Rule::Search(search) => {
-                let active = search.choose(&self.stack, &self.borders, &mut self.here, qd);
+                let active =
+                    search.choose(&self.stack, &self.borders, &mut self.here, &mut self.qd);
                 if active.is_none() {
-                    qd.copy_from_slice(self.anchor.velocity());
+                    self.qd.copy_from_slice(self.anchor.velocity());
                 }
                 Proposal {
-                    held: self
-                        .borders
-                        .held(&self.stack, &active.unwrap_or_default(), &self.here),
                     active,
                     modes_evaluated: search.evaluated(),
                 }
@@ -249,15 +244,8 @@ impl Controller {
                     borders: &self.borders,
                     pivots,
                 };
-                let active = nearest.choose(&mut tick, qd);
-                let mut held = nearest.held();
-                // What moves in from outside is not to be held where it was.
-                for &(side, _) in &self.barrier.wishes {
-                    held.remove(self.barrier.sides.get(side));
-                }
                 Proposal {
-                    active: Some(active),
-                    held,
+                    active: Some(nearest.choose(&mut tick, &mut self.qd)),
                     modes_evaluated: 0,
                 }
             }
@@ -268,17 +256,26 @@ impl Controller {
     fn arrive(
         &mut self,
         q: &[f64],
-        held: &Held,
+        proposal: &Proposal,
         is_shortened: bool,
-        qd: &mut JointVec,
-        q_ref: &mut JointVec,
         pivots: &mut usize,
     ) -> Landed {
         if self.settings.border == Border::Freeze {
-            for i in 0..q.len() {
-                q_ref[i] = q[i] + self.period * qd[i];
+            for (q_ref, (q, qd)) in self.q_ref.iter_mut().zip(q.iter().zip(self.qd.iter())) {
+                *q_ref = q + self.period * qd;
             }
             return Landed::default();
+        }
+        let mut held = match &self.rule {
+            Rule::Search(_) => {
+                let active = proposal.active.unwrap_or_default();
+                self.borders.held(&self.stack, &active, &self.here)
+            }
+            Rule::Nearest(nearest) => nearest.held(),
+        };
+        // What moves in from outside is not to be held where it was.
+        for &(side, _) in &self.barrier.wishes {
+            held.remove(self.barrier.sides.get(side));
         }
         let mut approach = Approach {
             stack: &self.stack,
@@ -288,10 +285,16 @@ impl Controller {
             limits: &self.limits,
             before: &self.step.qd,
             anchor: self.anchor.velocity(),
-            held,
+            held: &held,
             pivots,
         };
-        self.landing.land(&mut approach, q, is_shortened, qd, q_ref)
+        self.landing.land(
+            &mut approach,
+            q,
+            is_shortened,
+            &mut self.qd,
+            &mut self.q_ref,
+        )
     }
 
     fn check(&self, q: &[f64]) -> Result<(), StepError> {
@@ -301,7 +304,7 @@ impl Controller {
                 found: q.len(),
             });
         }
-        match q.iter().position(|v| !v.is_finite()) {
+        match not_finite(q) {
             Some(joint) => Err(StepError::PositionNotFinite { joint }),
             None => Ok(()),
         }

@@ -10,7 +10,7 @@ use alloc::vec::Vec;
 
 use crate::active::ActiveSet;
 use crate::evaluation::Evaluation;
-use crate::linalg::{Damped, MinimumNorm, RowSpace, add_scaled, dot};
+use crate::linalg::{Damped, MinimumNorm, RowSpace, add_scaled, copy, dot};
 use crate::real::sqrt;
 use crate::settings::{Recursion, Settings};
 use crate::stack::{Goal, Stack};
@@ -160,13 +160,9 @@ impl Hierarchy {
                 .solve(evaluation.jacobian(stack, task), rate, asked);
             self.asked_known[place] = true;
         }
-        if self.above.rank() == 0 {
-            add_scaled(velocity, 1.0, asked);
-        } else {
-            self.projected.copy_from_slice(asked);
-            self.above.project_out(&mut self.projected);
-            add_scaled(velocity, 1.0, &self.projected);
-        }
+        copy(&mut self.projected, asked);
+        self.above.project_out(&mut self.projected);
+        add_scaled(velocity, 1.0, &self.projected);
     }
 
     /// q̇ += (J N)⁺ (σ̇_ref − J q̇)

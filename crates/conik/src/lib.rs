@@ -81,6 +81,7 @@ mod step;
 mod task;
 mod task_id;
 mod task_vectors;
+mod trigonometry;
 mod waypoints;
 
 pub use active::{ActiveSet, MAX_TASKS};
