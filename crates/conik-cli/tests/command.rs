@@ -2,6 +2,8 @@
 
 mod command {
     mod bad_input;
+    mod default_rules;
+    mod gallery;
     mod network;
     mod outputs;
     mod process;

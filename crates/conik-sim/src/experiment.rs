@@ -102,17 +102,20 @@ impl Control {
 
 fn settings(control: &Control) -> Settings {
     Settings {
+        rate_hz: control.rate_hz,
         mode_rule: match control.mode_rule {
             ModeRule::Paper => conik::ModeRule::Paper,
             ModeRule::Border => conik::ModeRule::Border,
+            ModeRule::Cone => conik::ModeRule::Cone,
         },
         border: match control.border {
             Border::Freeze => conik::Border::Freeze,
+            Border::Land => conik::Border::Land,
         },
         recursion: match control.recursion {
             Recursion::Chiaverini => conik::Recursion::Chiaverini,
+            Recursion::SicilianoSlotine => conik::Recursion::SicilianoSlotine,
         },
-        ..Settings::at_rate(control.rate_hz)
     }
 }
 

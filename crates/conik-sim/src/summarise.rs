@@ -6,8 +6,10 @@ use conik::{Deviation, Goal, JointVec, Stack};
 
 use crate::record::Record;
 use crate::run::Ended;
+use crate::scenario::Border;
 use crate::summary::{
-    FORMAT, ModeChange, Properties, Property, Settings, StepTime, Summary, TaskSummary, Tracking,
+    FORMAT, Landing, ModeChange, Properties, Property, Settings, StepTime, StepWork, Summary,
+    TaskSummary, Tracking,
 };
 
 /// Takes in the records of a run and, at its end, gives the summary.
@@ -23,6 +25,8 @@ pub struct Summariser {
     deadline_misses: u64,
     speed_limited_ticks: u64,
     no_mode_ticks: u64,
+    landing: Landing,
+    step_work_max: StepWork,
 }
 
 #[derive(Clone, Debug)]
@@ -49,6 +53,8 @@ impl Summariser {
             deadline_misses: 0,
             speed_limited_ticks: 0,
             no_mode_ticks: 0,
+            landing: Landing::default(),
+            step_work_max: StepWork::default(),
         }
     }
 
@@ -73,6 +79,8 @@ impl Summariser {
         self.deadline_misses += record.missed_cycles;
         self.speed_limited_ticks += u64::from(record.speed_limited);
         self.no_mode_ticks += u64::from(record.no_mode);
+        self.landing.add(record);
+        self.step_work_max.raise(record);
         if let Some(measured) = record.q_measured {
             let still = JointVec::zeros(measured.len());
             self.tracking
@@ -94,6 +102,7 @@ impl Summariser {
     pub fn finish(self, ended: &Ended, settings: Settings, version: &str) -> Summary {
         let stack = ended.experiment.controller.stack();
         let period = 1.0 / ended.experiment.controller.settings().rate_hz;
+        let lands = settings.scenario.control.border == Border::Land;
         let (ended_at_s, final_q) = self.last.unwrap_or((0.0, ended.experiment.q0));
         Summary {
             format: FORMAT,
@@ -111,7 +120,25 @@ impl Summariser {
             tracking: self.tracking.map(TrackingSum::finish),
             speed_limited_ticks: self.speed_limited_ticks,
             no_mode_ticks: self.no_mode_ticks,
+            landing: lands.then_some(self.landing),
+            step_work_max: self.step_work_max,
         }
+    }
+}
+
+impl Landing {
+    fn add(&mut self, record: &Record) {
+        self.corrected_ticks += u64::from(record.landed.corrections > 0);
+        self.halvings += record.landed.halvings as u64;
+        self.stood_still_ticks += u64::from(record.landed.stood_still);
+    }
+}
+
+impl StepWork {
+    fn raise(&mut self, record: &Record) {
+        self.landing_trials = self.landing_trials.max(record.landed.kinematics);
+        self.pivots = self.pivots.max(record.pivots);
+        self.modes = self.modes.max(record.modes_evaluated);
     }
 }
 

@@ -40,11 +40,11 @@ static ALLOCATOR: Counting = Counting;
 #[test]
 fn no_tick_of_any_example_allocates() {
     for number in 1..=3 {
-        for mode_rule in [ModeRule::Paper, ModeRule::Border] {
-            let settings = Settings {
-                mode_rule,
-                ..Settings::of_the_paper()
-            };
+        let border = Settings {
+            mode_rule: ModeRule::Border,
+            ..Settings::of_the_paper()
+        };
+        for settings in [Settings::of_the_paper(), border, Settings::at_rate(125.0)] {
             let mut example = Example::new(number, paper::thesis(), settings);
             let before = ALLOCATIONS.load(Ordering::Relaxed);
             let mut most_active = 0;

@@ -264,14 +264,11 @@ fn finish(
         log,
     } = finished;
     let mut summary = summariser.finish(&ended, settings, env!("CARGO_PKG_VERSION"));
-    let mut errors = vec![];
-    if let Outcome::Fault { name, detail } = &summary.outcome {
-        errors.push(format!("{name}: {detail}"));
-    }
+    let mut errors = summary.faults();
     let drawable = log.is_ok() && !summary.modes.is_empty();
     if let Err(error) = log {
         errors.push(error.to_string());
-        if errors.len() == 1 {
+        if !matches!(summary.outcome, Outcome::Fault { .. }) {
             summary.outcome = Outcome::Fault {
                 name: "log-failed".to_owned(),
                 detail: error.to_string(),

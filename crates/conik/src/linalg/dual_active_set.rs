@@ -293,3 +293,6 @@ impl DualActiveSet {
         }
     }
 }
+
+#[cfg(test)]
+mod tests;

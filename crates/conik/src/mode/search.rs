@@ -23,7 +23,8 @@ use crate::evaluation::Evaluation;
 use crate::hierarchy::Hierarchy;
 use crate::linalg::dot;
 use crate::settings::{ModeRule, Settings};
-use crate::stack::Stack;
+use crate::sides::Side;
+use crate::stack::{Goal, Stack};
 use crate::task_id::TaskId;
 
 /// A task that changes slower than this [unit/s] counts as one that stands still: a frozen task
@@ -52,6 +53,34 @@ struct Tick<'a> {
     borders: &'a Borders,
     evaluation: &'a mut Evaluation,
     velocity: &'a mut [f64],
+}
+
+impl Tick<'_> {
+    /// J q̇ of a frozen set: zero, but for a bound or a task that moves by itself, and for a set that
+    /// recovers from outside.
+    fn frozen_rate(&self, task: TaskId) -> f64 {
+        let sigma = self.evaluation.scalar(task);
+        let border = self.borders.sides_at(task, sigma).next();
+        let bound_rate = border.map_or(0.0, |side| {
+            self.borders.bound_rate(side) + side.inward(self.recovery(task, side, sigma))
+        });
+        bound_rate - self.evaluation.drift(task)
+    }
+
+    /// How fast a frozen set is to come back to a side that it is outside of.
+    fn recovery(&self, task: TaskId, side: Side, sigma: f64) -> f64 {
+        match self.stack[task].goal() {
+            Goal::Set {
+                interval,
+                recovery: Some(speed),
+                ..
+            } => {
+                let outside = -side.inside(interval, sigma);
+                speed.min(outside.max(0.0) / self.borders.period())
+            }
+            _ => 0.0,
+        }
+    }
 }
 
 impl ModeSearch {
@@ -138,10 +167,14 @@ impl ModeSearch {
                 continue;
             }
             let frozen = self.hierarchy.frozen();
-            if self.high_priority.contains(task)
-                && !self.hierarchy.freeze(tick.stack, tick.evaluation, task)
-            {
-                continue;
+            if self.high_priority.contains(task) {
+                let rate = tick.frozen_rate(task);
+                if !self
+                    .hierarchy
+                    .freeze(tick.stack, tick.evaluation, task, rate)
+                {
+                    continue;
+                }
             }
             self.active.insert(task);
             let is_found = self.finds_one_of_size(tick, missing - 1, i + 1);
@@ -165,6 +198,7 @@ impl ModeSearch {
             .all(|&task| {
                 let rate = dot(tick.evaluation.jacobian(tick.stack, task), tick.velocity);
                 let rate = if rate.abs() <= STILL { 0.0 } else { rate };
+                let rate = rate + tick.evaluation.drift(task);
                 let sigma = tick.evaluation.scalar(task);
                 tick.borders.tangent_cone_contains(task, rate, sigma)
             })
