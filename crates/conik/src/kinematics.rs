@@ -80,15 +80,19 @@ impl Kinematics {
             *angle = link.angle(*position);
         }
         sin_cos(&self.angles, &mut self.sines, &mut self.cosines);
+        let turned = self.sines.iter().zip(self.cosines.iter());
+        let joints = self.links.iter().zip(self.q.iter()).zip(turned);
         let mut pose = Pose::IDENTITY;
-        for (i, link) in self.links.iter().enumerate() {
+        for (i, (((link, position), (sin, cos)), frame)) in
+            joints.zip(&mut self.base_from_frame[1..]).enumerate()
+        {
             let (turn, slide) = match link.kind() {
                 JointKind::Revolute => (pose.z_axis, pose.origin.cross(pose.z_axis)),
                 JointKind::Prismatic => (Vec3::ZERO, pose.z_axis),
             };
             self.twists[i / 2].set(i % 2, turn, slide);
-            pose = link.advance(&pose, self.q[i], (self.sines[i], self.cosines[i]));
-            self.base_from_frame[i + 1] = pose;
+            pose = link.advance(&pose, *position, (*sin, *cos));
+            *frame = pose;
         }
     }
 
