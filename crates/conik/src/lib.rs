@@ -95,7 +95,10 @@ pub use kinematics::{Frame, Kinematics};
 pub use landing::{Landed, Outside};
 pub use limits::{Exceeded, Shortened};
 pub use mode::ModeOrder;
-pub use monitor::{Deviation, Monitor, PROPERTY_TOLERANCE, Properties, TaskHistory};
+pub use monitor::{
+    Deviation, JointHistory, Monitor, Observations, Occurrence, PROPERTY_TOLERANCE, Properties,
+    TaskHistory,
+};
 pub use reason::Reason;
 pub use robot::{DhRow, Joint, JointKind, JointLimits, Robot, RobotError};
 pub use settings::{Border, ModeRule, Recursion, Settings};

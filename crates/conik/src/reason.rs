@@ -24,6 +24,8 @@ pub enum Reason {
         is_upper: bool,
         /// How far it would go.
         crossing: f64,
+        /// Rate at which it moves inward all the same, to first order [task's unit/s].
+        rate: f64,
     },
     /// A set is active though it is strictly inside, at this distance from its border [task's unit]:
     /// rule `Paper` freezes it to stop another one.
@@ -195,6 +197,7 @@ impl fmt::Display for Words<'_> {
                 task,
                 is_upper,
                 crossing,
+                ..
             } => {
                 let side = if is_upper { "greatest" } else { "least" };
                 if crossing > 0.0 {

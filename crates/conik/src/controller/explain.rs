@@ -31,11 +31,12 @@ impl Controller {
         }
     }
 
-    fn why_active(&self, task: TaskId) -> Reason {
+    fn why_active(&mut self, task: TaskId) -> Reason {
         let sigma = self.here.scalar(task);
         let set = self.stack.interval_of_set(task);
         let is_upper = !set.is_nearer_to_min(sigma);
-        let rate = match &self.rule {
+        let side = Side { task, is_upper };
+        let crossing_rate = match &self.rule {
             Rule::Search(search) => {
                 if !self.borders.is_at_border(task, sigma) {
                     let [lower, upper] = Side::both(task).map(|side| side.inside(&set, sigma));
@@ -46,12 +47,13 @@ impl Controller {
                 }
                 search.leaving(task).abs()
             }
-            Rule::Nearest(nearest) => nearest.crossing(Side { task, is_upper }),
+            Rule::Nearest(nearest) => nearest.crossing(side),
         };
         Reason::Holds {
             task,
             is_upper,
-            crossing: rate * self.period,
+            crossing: crossing_rate * self.period,
+            rate: self.inward_rate(side),
         }
     }
 
@@ -59,11 +61,16 @@ impl Controller {
         let set = self.stack.interval_of_set(task);
         let is_upper = !set.is_nearer_to_min(self.here.scalar(task));
         let side = Side { task, is_upper };
-        let moves = self.here.drift(task) - self.borders.bound_rate(side);
-        let rate = dot(self.here.jacobian(&self.stack, task), &self.step.qd) + moves;
         Reason::LetsGo {
             task,
-            inward: side.inward(rate).max(0.0),
+            inward: self.inward_rate(side).max(0.0),
         }
+    }
+
+    /// How fast this tick's velocity takes a side inward, relative to its bound [task's unit/s].
+    fn inward_rate(&mut self, side: Side) -> f64 {
+        let moves = self.here.drift(side.task) - self.borders.bound_rate(side);
+        let row = self.here.jacobian(&self.stack, side.task);
+        side.inward(dot(row, &self.step.qd) + moves)
     }
 }
