@@ -12,7 +12,7 @@
 //! them inside too. (3) Bounds in force only ever tighten, towards the set, and never past the
 //! present value ([`Borders`](crate::border::Borders)). Hence the next q is inside, exactly: no
 //! tolerance, any rate, any rule, any recursion, any number of sets. Nothing is said about the time
-//! between samples.
+//! between samples. `docs/method.md` goes through the steps one by one.
 //!
 //! At most 9 kinematics a tick: three trials of one and two corrections each.
 
