@@ -56,6 +56,8 @@
 extern crate alloc;
 
 mod active;
+mod anchor;
+mod barrier;
 mod border;
 mod cone;
 mod controller;
@@ -66,6 +68,7 @@ mod hierarchy;
 mod joints;
 mod kinematics;
 mod landing;
+mod limits;
 mod linalg;
 mod mode;
 mod monitor;
@@ -78,6 +81,7 @@ mod step;
 mod task;
 mod task_id;
 mod task_vectors;
+mod trigonometry;
 mod waypoints;
 
 pub use active::{ActiveSet, MAX_TASKS};
@@ -87,13 +91,14 @@ pub use dependence::dependent_tasks;
 pub use geometry::{Pose, Vec3};
 pub use joints::{JointVec, MAX_JOINTS, TooManyJoints};
 pub use kinematics::{Frame, Kinematics};
-pub use landing::Landed;
+pub use landing::{Landed, Outside};
+pub use limits::{Exceeded, Shortened};
 pub use mode::ModeOrder;
 pub use monitor::{Deviation, Monitor, PROPERTY_TOLERANCE, Properties, TaskHistory};
 pub use robot::{DhRow, Joint, JointKind, JointLimits, Robot, RobotError};
 pub use settings::{Border, ModeRule, Recursion, Settings};
-pub use stack::{Goal, Level, Setpoints, Stack, StackError, StackErrorReason};
-pub use step::{SpeedLimit, Step};
+pub use stack::{BoundRates, Goal, Level, Setpoints, Stack, StackError, StackErrorReason};
+pub use step::Step;
 pub use task::{
     Axis, Coordinate, Distance, FieldOfView, JacobianMut, JointPosition, Position, Task,
 };

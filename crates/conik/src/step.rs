@@ -3,6 +3,7 @@
 use crate::active::ActiveSet;
 use crate::joints::JointVec;
 use crate::landing::Landed;
+use crate::limits::{Exceeded, Shortened};
 use crate::real::sqrt;
 use crate::stack::Stack;
 use crate::task_id::TaskId;
@@ -19,9 +20,12 @@ pub struct Step {
     pub qdd: JointVec,
     /// Joint positions q_ref = q + T q̇_ref [rad or m], for the end of this period.
     pub q_ref: JointVec,
-    /// By how much the whole velocity was scaled to meet the speed limits, and for which joint;
-    /// `None` if it was not.
-    pub speed_limit: Option<SpeedLimit>,
+    /// The joint for whose speed limit the whole velocity was shortened; `None` if it was not.
+    pub speed_limit: Option<Shortened>,
+    /// The joint for whose acceleration limit the whole change of velocity was shortened.
+    pub acceleration_limit: Option<Shortened>,
+    /// The joint whose acceleration is furthest beyond its limit, for the sake of a set.
+    pub acceleration_exceeded: Option<Exceeded>,
     /// Whether the exclusions left no mode that keeps every set. The arm then stands still.
     pub no_mode: bool,
     /// Number of modes whose velocity was computed, by the rules `Paper` and `Border`.
@@ -34,15 +38,6 @@ pub struct Step {
     pub(crate) errors: TaskVectors,
 }
 
-/// The joint whose speed limit bound.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SpeedLimit {
-    /// Index of the joint.
-    pub joint: usize,
-    /// Factor on the whole velocity, in (0, 1).
-    pub factor: f64,
-}
-
 impl Step {
     pub(crate) fn at_rest(stack: &Stack) -> Self {
         let still = JointVec::zeros(stack.dof());
@@ -52,6 +47,8 @@ impl Step {
             qdd: still,
             q_ref: still,
             speed_limit: None,
+            acceleration_limit: None,
+            acceleration_exceeded: None,
             no_mode: false,
             modes_evaluated: 0,
             pivots: 0,

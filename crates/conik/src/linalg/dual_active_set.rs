@@ -298,3 +298,6 @@ impl DualActiveSet {
         }
     }
 }
+
+#[cfg(test)]
+mod tests;
