@@ -44,6 +44,8 @@ pub(crate) struct ModeSearch {
     candidates: Vec<TaskId>,
     /// Sets at or outside their border this tick.
     at_border: Vec<TaskId>,
+    /// How fast each task was left in the last mode that was refused for it [unit/s].
+    leaving: Vec<f64>,
     evaluated: usize,
 }
 
@@ -100,10 +102,16 @@ impl ModeSearch {
             active: ActiveSet::EMPTY,
             candidates: Vec::with_capacity(sets.len()),
             at_border: Vec::with_capacity(sets.len()),
+            leaving: alloc::vec![0.0; stack.len()],
             sets,
             rule: settings.mode_rule,
             evaluated: 0,
         }
+    }
+
+    /// How fast a task on its border would be left if it were let go [unit/s]; 0 if it would not.
+    pub(crate) fn leaving(&self, task: TaskId) -> f64 {
+        self.leaving[task.index()]
     }
 
     /// How many modes the last search computed a velocity of.
@@ -148,6 +156,7 @@ impl ModeSearch {
             let at_border = borders.is_at_border(task, evaluation.scalar(task));
             if at_border {
                 self.at_border.push(task);
+                self.leaving[task.index()] = 0.0;
             }
             if at_border || self.rule == ModeRule::Paper {
                 self.candidates.push(task);
@@ -200,7 +209,11 @@ impl ModeSearch {
                 let rate = if rate.abs() <= STILL { 0.0 } else { rate };
                 let rate = rate + tick.evaluation.drift(task);
                 let sigma = tick.evaluation.scalar(task);
-                tick.borders.tangent_cone_contains(task, rate, sigma)
+                let stays = tick.borders.tangent_cone_contains(task, rate, sigma);
+                if !stays {
+                    self.leaving[task.index()] = rate;
+                }
+                stays
             })
     }
 }

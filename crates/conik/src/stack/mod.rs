@@ -277,6 +277,15 @@ impl Stack {
             .map(|(i, level)| (TaskId::new(i), level))
     }
 
+    /// The allowed values of a task that is a set; all values for another one.
+    pub(crate) fn interval_of_set(&self, task: TaskId) -> Interval {
+        let all = Interval {
+            min: f64::NEG_INFINITY,
+            max: f64::INFINITY,
+        };
+        self[task].interval().copied().unwrap_or(all)
+    }
+
     /// Number of tasks.
     pub fn len(&self) -> usize {
         self.levels.len()
