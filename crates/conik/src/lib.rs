@@ -7,17 +7,19 @@
 //! allowed values. Once per period T the controller chooses a joint velocity q̇ and integrates it to
 //! the next joint reference q + T q̇.
 //!
-//! While all sets hold, the equality tasks alone decide. With σ̇ᵢ = σ̇ᵢ,des + Λᵢ (σᵢ,des − σᵢ), Jacobians
-//! Jᵢ and N the null-space projector of all rows stacked above level i,
+//! While all sets hold, the equality tasks alone decide. With sᵢ = σ̇ᵢ,des + Λᵢ (σᵢ,des − σᵢ), Jacobians
+//! Jᵢ and N the null-space projector of all rows stacked above level i, level by level,
 //!
 //! ```text
-//! q̇ = Σᵢ N Jᵢ⁺ σ̇ᵢ
+//! q̇ ← q̇ + (Jᵢ N)⁺ (sᵢ − Jᵢ q̇)            by default
+//! q̇ ← q̇ + N Jᵢ⁺ sᵢ                       in the paper
 //! ```
 //!
 //! A set-based task is ignored until it would leave its set: until it is at a border of C and J q̇
 //! points out of the tangent cone T_C(σ). Then it becomes *active*. Above the first equality task it
-//! is frozen, its row standing on top of the stack with reference zero; below, it is driven back to
-//! its border with a gain. The set of active tasks is the *mode*; [`Settings::mode_rule`] chooses it.
+//! is held there, and no sample lies outside; below, it is driven back to its border with a gain. The
+//! set of active tasks is the *mode*; [`Settings`] says how it is chosen, how sets are held, and how
+//! levels are fitted. `docs/method.md` in the repository has the whole.
 //!
 //! The method is that of Moe, Antonelli, Pettersen and Schrimpf, *Experimental Results for
 //! Set-based Control within the Singularity-robust Multiple Task-priority Inverse Kinematics
