@@ -182,9 +182,7 @@ impl Hierarchy {
             *gap -= dot(row, velocity);
             self.above.project_out(row);
         }
-        if self.damped.is_regular(rows) {
-            self.damped.add_regular(rows, gap, velocity);
-        } else {
+        if self.damped.add_if_regular(rows, gap, velocity).is_none() {
             self.damped
                 .add_by_direction(rows, gap, lambda_squared, velocity);
         }

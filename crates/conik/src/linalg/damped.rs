@@ -14,11 +14,11 @@
 use alloc::vec::Vec;
 
 use super::symmetric::{eigenvectors, factor, solve};
-use super::{add_scaled, dot};
+use super::{COMMON, add_scaled, dot};
 use crate::real::sqrt;
 
 /// l₀: weight of the velocity itself [task's unit per rad].
-const STRICT: f64 = 1e-3;
+pub(super) const STRICT: f64 = 1e-3;
 
 /// ε: singular values below this are damped [task's unit per rad].
 pub(crate) const SINGULAR: f64 = 0.2;
@@ -73,17 +73,24 @@ impl Damped {
         factor(&mut self.gram, self.count)
     }
 
-    /// x += the solution for rows all of whose directions are undamped: Aᵀ (A Aᵀ + l₀² I)⁻¹ g.
-    pub(crate) fn add_regular(&mut self, rows: &[f64], g: &[f64], x: &mut [f64]) {
-        self.fill_gram(rows, STRICT * STRICT);
-        let n = self.count;
-        self.rhs[..n].copy_from_slice(g);
-        // Positive definite by the shift, unless a task gave NaN, which shows in x.
-        factor(&mut self.gram, n);
-        solve(&self.gram, n, &mut self.rhs[..n]);
-        for (row, y) in rows.chunks_exact(self.dof).zip(&self.rhs[..n]) {
-            add_scaled(x, *y, row);
-        }
+    /// If no direction of the rows needs damping, x += Aᵀ w with w = (A Aᵀ + l₀² I)⁻¹ g, and w.
+    #[inline]
+    pub(crate) fn add_if_regular(
+        &mut self,
+        rows: &[f64],
+        g: &[f64],
+        x: &mut [f64],
+    ) -> Option<&[f64]> {
+        let Self {
+            gram, rhs: w, dof, ..
+        } = self;
+        // The same code each time; known sizes let the compiler unroll it.
+        let is_regular = match (g.len(), *dof) {
+            (1, COMMON) => add_if_regular(1, COMMON, gram, rows, g, w, x),
+            (3, COMMON) => add_if_regular(3, COMMON, gram, rows, g, w, x),
+            (count, dof) => add_if_regular(count, dof, gram, rows, g, w, x),
+        };
+        is_regular.then_some(&self.rhs[..g.len()])
     }
 
     /// x += Aᵀ (A Aᵀ + (1 − (s/ε)²) λ² I)⁻¹ g, s the smallest singular value: all directions damped
@@ -216,4 +223,47 @@ impl Damped {
             }
         }
     }
+}
+
+#[inline(always)]
+#[allow(clippy::inline_always, reason = "for the sake of known sizes")]
+fn add_if_regular(
+    count: usize,
+    dof: usize,
+    gram: &mut [f64],
+    rows: &[f64],
+    g: &[f64],
+    w: &mut [f64],
+    x: &mut [f64],
+) -> bool {
+    let (rows, x) = (&rows[..count * dof], &mut x[..dof]);
+    let (gram, w) = (&mut gram[..count * count], &mut w[..count]);
+    let row = |i: usize| &rows[i * dof..][..dof];
+    // The factor needs only the lower triangle. The upper one keeps the matrix itself, w its diagonal.
+    for i in 0..count {
+        for j in 0..i {
+            let entry = dot(row(i), row(j));
+            gram[i * count + j] = entry;
+            gram[j * count + i] = entry;
+        }
+        w[i] = dot(row(i), row(i));
+        gram[i * count + i] = w[i] - SINGULAR * SINGULAR;
+    }
+    if !factor(gram, count) {
+        return false;
+    }
+    for i in 0..count {
+        for j in 0..i {
+            gram[i * count + j] = gram[j * count + i];
+        }
+        gram[i * count + i] = w[i] + STRICT * STRICT;
+    }
+    // Positive definite by the shift, unless a task gave NaN, which shows in x.
+    factor(gram, count);
+    w.copy_from_slice(&g[..count]);
+    solve(gram, count, w);
+    for i in 0..count {
+        add_scaled(x, w[i], row(i));
+    }
+    true
 }
