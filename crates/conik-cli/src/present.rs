@@ -62,7 +62,7 @@ fn outcome(summary: &Summary) -> String {
         format!("at {} s", summary.ended_at_s)
     };
     match &summary.outcome {
-        Outcome::Completed => String::new(),
+        Outcome::Completed | Outcome::Running => String::new(),
         Outcome::Interrupted => {
             format!("stopped by hand {when}; the arm was brought to a stop first\n")
         }

@@ -3,6 +3,7 @@
 mod command {
     mod bad_input;
     mod default_rules;
+    mod documents;
     mod gallery;
     mod network;
     mod outputs;

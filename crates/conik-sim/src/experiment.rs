@@ -90,6 +90,14 @@ impl Experiment {
     }
 }
 
+impl Experiment {
+    /// How many waypoints there are to reach.
+    pub fn waypoint_count(&self) -> usize {
+        let waypoints = self.waypoints.as_ref();
+        waypoints.map_or(0, |(_, waypoints)| waypoints.points().len())
+    }
+}
+
 impl Control {
     /// Index of the tick at the end of the run: tick k is at t = k / rate.
     pub fn last_tick(&self) -> u64 {

@@ -42,7 +42,7 @@ impl Summary {
     /// The promises that the run did not keep, in the order of the properties.
     pub fn broken_promises(&self) -> Vec<BrokenPromise<'_>> {
         let border = self.settings.scenario.control.border;
-        if border == Border::Freeze {
+        if border == Border::Freeze || self.modes.is_empty() {
             return vec![];
         }
         let properties = &self.properties;
@@ -86,7 +86,7 @@ impl Summary {
     pub fn faults(&self) -> Vec<String> {
         let fault = match &self.outcome {
             Outcome::Fault { name, detail } => Some(format!("{name}: {detail}")),
-            Outcome::Completed | Outcome::Interrupted => None,
+            Outcome::Completed | Outcome::Interrupted | Outcome::Running => None,
         };
         let broken = self.broken_promises();
         fault

@@ -67,6 +67,8 @@ pub struct Settings {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "kind", rename_all = "snake_case")]
 pub enum Outcome {
+    /// It has not, or nobody was left to say how: what is written at the start of every run.
+    Running,
     /// The whole duration was run.
     Completed,
     /// A person stopped it.
@@ -102,7 +104,7 @@ pub struct TaskSummary {
     pub worst_violation: Option<f64>,
     /// First time inside its set [s]; `None` if never, or for an equality task.
     pub entered_set_s: Option<f64>,
-    /// Norm of the error at the end; `None` for a set-based task.
+    /// Norm of the error at the end; `None` for a set-based task, or without a single tick.
     pub final_error: Option<f64>,
     /// For how long it was active [s]; `None` for an equality task.
     pub active_s: Option<f64>,
@@ -126,7 +128,7 @@ pub struct Properties {
 /// One property: kept or not, and its worst moment.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Property {
-    /// `worst` is at most 1e-6 in the task's unit.
+    /// `worst` is at most 1e-6 in the task's unit, and there was a tick that could show it.
     pub holds: bool,
     /// The largest deviation from the property [task's unit].
     pub worst: f64,

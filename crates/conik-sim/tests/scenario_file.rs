@@ -306,7 +306,7 @@ fn any_scenario() -> impl Strategy<Value = Scenario> {
     let task = prop_oneof![4 => scalar, 1 => position];
     let tasks = prop::collection::vec(task, 1..8);
     let title = prop::option::of(any::<String>());
-    (tasks, 50.0..1000.0, 1e-3..1e3, title).prop_map(|(tasks, rate, duration, title)| {
+    (tasks, 50.0..1000.0, 0.02..1e3, title).prop_map(|(tasks, rate, duration, title)| {
         let control = format!("[control]\nrate_hz = {rate:?}\nduration_s = {duration:?}\n");
         let named = |(i, task)| format!("[[task]]\nname = \"a/b-{i}\"\n{task}");
         let tasks: Vec<_> = tasks.iter().enumerate().map(named).collect();

@@ -114,6 +114,8 @@ const CASES: &[Case] = &[
     case("duration_s = 60", "duration_s = -1.5", "control.duration_s", 7, &["-1.5 is out of range"]),
     case("duration_s = 60", "duration_s = inf", "control.duration_s", 7, &["inf is not a finite number"]),
     case("duration_s = 60", "duration_s = 86401", "control.duration_s", 7, &["out of range"]),
+    case("duration_s = 60", "duration_s = 0.0079", "control.duration_s", 7, &["0.0079 s are shorter than one control period at 125 Hz", "at least 0.008 s"]),
+    case("duration_s = 60", "duration_s = nan", "control.duration_s", 7, &["not a finite number"]),
     case("duration_s = 60\n", "duration_s = 2024-01-01\n", "control.duration_s", 7, &["found a date or time"]),
     case("rate_hz = 125\nduration_s = 60", "rate_hz = 1000\nduration_s = 86400", "control.duration_s", 7, &["more than 50000000 ticks", "at most 50000 s"]),
     case("mode_rule = \"paper\"", "mode_rule = \"kone\"", "control.mode_rule", 8, &["unknown name \"kone\"", "\"paper\", \"border\", \"cone\""]),
@@ -128,6 +130,7 @@ const CASES: &[Case] = &[
     case(EXCLUSIVE, "exclusive = [[]]", "control.exclusive[1]", 11, &["at least two"]),
     case(EXCLUSIVE, "exclusive = [[\"a\", \"a\"]]", "control.exclusive[1][2]", 11, &["\"a\" stands in this group twice"]),
     case(EXCLUSIVE, "exclusive = [[\"a\", \"veiw\"]]", "control.exclusive[1][2]", 11, &["there is no task \"veiw\"", "did you mean \"view\"?"]),
+    case(EXCLUSIVE, "exclusive = [[\"view\", \"viev\"]]", "control.exclusive[1][2]", 11, &["there is no task \"viev\"", "the set-based tasks are: \"a\", \"b\", \"view\""]),
     case(EXCLUSIVE, "exclusive = [[\"a\", \"wall\"]]", "control.exclusive[1][2]", 11, &["the set-based tasks are: \"a\", \"b\", \"view\""]),
     case(EXCLUSIVE, "exclusive = [[\"a\", \"p\"]]", "control.exclusive[1][2]", 11, &["\"p\" is an equality task"]),
     // Names.

@@ -152,6 +152,11 @@ impl Borders {
         }
     }
 
+    /// Whether a value is on the border or outside.
+    pub(crate) fn is_at_border(&self, task: TaskId, sigma: f64) -> bool {
+        self.sides_at(task, sigma).next().is_some()
+    }
+
     /// Sides of the active sets at whose border they now are.
     pub(crate) fn held(&self, stack: &Stack, active: &ActiveSet, evaluation: &Evaluation) -> Held {
         let mut held = Held::default();
@@ -181,9 +186,32 @@ impl Borders {
     }
 }
 
+/// A bound that jumped moved by more than this; what is less is rounding [task's unit].
+const JUMP: f64 = 1e-3 * MARGIN;
+
 /// The leeway of a side that is `outside` by so much now. The slack of a margin is given once and never
 /// grows; only a bound that jumped away from the task gives it a new start.
 fn least_leeway(best: f64, outside: f64) -> f64 {
     let now = (outside + MARGIN).max(0.0);
-    if outside > best { now } else { best.min(now) }
+    if outside > best + JUMP {
+        now
+    } else {
+        best.min(now)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn leeway_grows_for_a_jump_and_not_for_rounding() {
+        let best = least_leeway(f64::INFINITY, 0.3);
+        assert_eq!(best, 0.3 + MARGIN);
+        assert_eq!(least_leeway(best, 0.2), 0.2 + MARGIN);
+        assert_eq!(least_leeway(best, best), best, "at the bound in force");
+        assert_eq!(least_leeway(best, best + 1e-16), best);
+        assert_eq!(least_leeway(best, 0.4), 0.4 + MARGIN);
+        assert_eq!(least_leeway(best, -1.0), 0.0);
+    }
 }

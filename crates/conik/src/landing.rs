@@ -12,7 +12,7 @@
 //! them inside too. (3) Bounds in force only ever tighten, towards the set, and never past the
 //! present value ([`Borders`](crate::border::Borders)). Hence the next q is inside, exactly: no
 //! tolerance, any rate, any rule, any recursion, any number of sets. Nothing is said about the time
-//! between samples.
+//! between samples. `docs/method.md` goes through the steps one by one.
 //!
 //! **Where something moves by itself**, values and bounds are those of the end of the period, and
 //! standing still may be outside too. Then the trial of the least violation is committed, standing

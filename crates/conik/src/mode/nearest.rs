@@ -46,6 +46,8 @@ pub(crate) struct Nearest {
     above: RowSpace,
     asked: Vec<f64>,
     returning: Vec<usize>,
+    /// How fast each side would be left if it were let go [unit/s].
+    crossings: Vec<f64>,
     tasks: usize,
 }
 
@@ -83,6 +85,7 @@ impl Nearest {
             above: RowSpace::new(stack.dof(), max_rows),
             asked: Vec::with_capacity(max_rows),
             returning: Vec::with_capacity(2 * stack.len()),
+            crossings: alloc::vec![0.0; 2 * stack.len()],
             tasks: stack.len(),
         }
     }
@@ -92,6 +95,7 @@ impl Nearest {
         self.held_before = core::mem::take(&mut self.held);
         self.low_active = ActiveSet::EMPTY;
         self.above.truncate(0);
+        self.crossings.fill(0.0);
         velocity.fill(0.0);
         let mut level_above: Option<TaskId> = None;
         for place in 0..self.lower.len() {
@@ -107,6 +111,11 @@ impl Nearest {
         }
         self.keep_what_does_not_leave(tick.barrier, velocity);
         self.held.tasks().union(&self.low_active)
+    }
+
+    /// How fast a side would be left if it were let go [unit/s]; 0 if it would not.
+    pub(crate) fn crossing(&self, side: Side) -> f64 {
+        self.crossings[side.number()]
     }
 
     /// Sides held by this tick's velocity.
@@ -155,6 +164,7 @@ impl Nearest {
                         self.held.insert(side);
                         self.low_active.insert(task);
                         self.asked.push(side.inward(asked));
+                        self.crossings[side.number()] = (kept - rate).max(0.0);
                         return true;
                     }
                     if kept > f64::NEG_INFINITY {
@@ -231,6 +241,10 @@ impl Nearest {
             let side = sides.get(i);
             self.held.insert(side);
             memory[side.number()] = multiplier;
+        }
+        for (i, rate) in self.program.crossings() {
+            let crossing = &mut self.crossings[sides.get(i).number()];
+            *crossing = crossing.max(rate);
         }
     }
 

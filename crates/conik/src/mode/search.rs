@@ -45,6 +45,8 @@ pub(crate) struct ModeSearch {
     candidates: Vec<TaskId>,
     /// Sets at or outside their border this tick, with the rates J q̇ that their cones allow.
     at_border: Vec<(TaskId, Interval)>,
+    /// How fast each task was left in the last mode that was refused for it [unit/s].
+    leaving: Vec<f64>,
     evaluated: usize,
 }
 
@@ -101,10 +103,16 @@ impl ModeSearch {
             active: ActiveSet::EMPTY,
             candidates: Vec::with_capacity(sets.len()),
             at_border: Vec::with_capacity(sets.len()),
+            leaving: alloc::vec![0.0; stack.len()],
             sets,
             rule: settings.mode_rule,
             evaluated: 0,
         }
+    }
+
+    /// How fast a task on its border would be left if it were let go [unit/s]; 0 if it would not.
+    pub(crate) fn leaving(&self, task: TaskId) -> f64 {
+        self.leaving[task.index()]
     }
 
     /// How many modes the last search computed a velocity of.
@@ -155,6 +163,7 @@ impl ModeSearch {
                     max: cone.max - drift,
                 };
                 self.at_border.push((task, allowed));
+                self.leaving[task.index()] = 0.0;
             }
             if at_border || self.rule == ModeRule::Paper {
                 self.candidates.push(task);
@@ -203,8 +212,12 @@ impl ModeSearch {
             self.active.contains(*task) || {
                 let rate = dot(tick.evaluation.jacobian(tick.stack, *task), tick.velocity);
                 let rate = if rate.abs() <= STILL { 0.0 } else { rate };
-                // False for NaN, which the controller reports.
-                !(rate < allowed.min || rate > allowed.max)
+                // True for NaN, which the controller reports.
+                let stays = !(rate < allowed.min || rate > allowed.max);
+                if !stays {
+                    self.leaving[task.index()] = rate + tick.evaluation.drift(*task);
+                }
+                stays
             }
         })
     }

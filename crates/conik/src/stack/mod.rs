@@ -277,6 +277,26 @@ impl Stack {
             .map(|(i, level)| (TaskId::new(i), level))
     }
 
+    /// Whether a set moves in by itself while it is outside.
+    pub(crate) fn recovers(&self, task: TaskId) -> bool {
+        matches!(
+            self[task].goal(),
+            Goal::Set {
+                recovery: Some(_),
+                ..
+            }
+        )
+    }
+
+    /// The allowed values of a task that is a set; all values for another one.
+    pub(crate) fn interval_of_set(&self, task: TaskId) -> Interval {
+        let all = Interval {
+            min: f64::NEG_INFINITY,
+            max: f64::INFINITY,
+        };
+        self[task].interval().copied().unwrap_or(all)
+    }
+
     /// Number of tasks.
     pub fn len(&self) -> usize {
         self.levels.len()

@@ -1,5 +1,7 @@
 //! The controller: from a configuration to the next joint reference, once per period.
 
+mod explain;
+
 use alloc::boxed::Box;
 
 use crate::active::ActiveSet;
@@ -179,6 +181,7 @@ impl Controller {
         let is_shortened = speed_limit.is_some() || acceleration_limit.is_some();
         let landed = self.arrive(q, &proposal, is_shortened, &mut pivots);
 
+        let was_active = self.step.active;
         let step = &mut self.step;
         step.acceleration_exceeded = self.limits.exceeded(&self.qd, &step.qd);
         let changes = step.qdd.iter_mut().zip(step.qd.iter().zip(self.qd.iter()));
@@ -196,7 +199,8 @@ impl Controller {
         step.landed = landed;
         step.values.copy_from(self.here.values());
         step.errors.copy_from(self.here.errors());
-        Ok(step)
+        self.explain(&was_active);
+        Ok(&self.step)
     }
 
     /// What the high-priority sets allow in this tick, and a velocity that keeps them.
