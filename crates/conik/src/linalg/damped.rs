@@ -13,6 +13,7 @@
 
 use alloc::vec::Vec;
 
+use super::row_space::push_row;
 use super::symmetric::{eigenvectors, factor, solve};
 use super::{COMMON, add_scaled, dot};
 use crate::real::sqrt;
@@ -93,6 +94,17 @@ impl Damped {
         is_regular.then_some(&self.rhs[..g.len()])
     }
 
+    /// vᵀ (A Aᵀ + l₀² I)⁻¹ v for the rows of the last regular solution.
+    pub(crate) fn regular_square(&mut self, v: &[f64]) -> f64 {
+        let w = &mut self.rhs[..v.len()];
+        w.copy_from_slice(v);
+        match v.len() {
+            3 => solve(&self.gram, 3, w),
+            count => solve(&self.gram, count, w),
+        }
+        dot(v, w)
+    }
+
     /// x += Aᵀ (A Aᵀ + (1 − (s/ε)²) λ² I)⁻¹ g, s the smallest singular value: all directions damped
     /// alike, more the nearer the rows are to losing rank.
     pub(crate) fn add_damped(
@@ -146,6 +158,17 @@ impl Damped {
 
     /// Finds the yⱼ and wⱼ of the usable rows.
     pub(crate) fn analyse(&mut self, usable: &[f64]) {
+        if self.is_regular(usable) {
+            // All weights are 1, and then any orthonormal rows of the same span will do.
+            self.weights.clear();
+            for row in usable.chunks_exact(self.dof) {
+                let found = self.weights.len();
+                if push_row(self.dof, &mut self.directions, found, row) {
+                    self.weights.push(1.0);
+                }
+            }
+            return;
+        }
         self.fill_gram(usable, 0.0);
         let (dof, n) = (self.dof, self.count);
         eigenvectors(&mut self.gram, n, &mut self.eigenvectors);

@@ -35,6 +35,8 @@ pub(crate) struct LevelProgram {
     velocity: Vec<f64>,
     /// The sides, by index, that bind in it, with their multipliers.
     binding: Vec<(usize, f64)>,
+    /// Whether it came from `held_fit`, not from `solver`.
+    is_held_fit: bool,
     /// J, or J N.
     rows: Vec<f64>,
     /// What of J N is left beside the held sides.
@@ -84,6 +86,7 @@ impl LevelProgram {
             minimum_norm: MinimumNorm::new(dof, max_rows),
             velocity: alloc::vec![0.0; dof],
             binding: Vec::with_capacity(dof),
+            is_held_fit: false,
             rows: Vec::with_capacity(max_rows * dof),
             usable: Vec::with_capacity(max_rows * dof),
             gap: Vec::with_capacity(max_rows),
@@ -104,6 +107,7 @@ impl LevelProgram {
         pivots: &mut usize,
     ) -> Solution {
         self.binding.clear();
+        self.is_held_fit = false;
         self.rows.clear();
         self.rows.extend_from_slice(level.jacobian);
         self.gap.clear();
@@ -142,8 +146,16 @@ impl LevelProgram {
     /// The sides, by index, that bind in the last solution, with how far beyond its bound each would go
     /// [unit/s] if it alone were let go.
     pub(crate) fn crossings(&mut self) -> impl Iterator<Item = (usize, f64)> {
-        (0..self.solver.active().len())
-            .map(|k| (self.solver.active()[k], self.solver.rate_if_released(k)))
+        let (rank, count) = (self.binding.len(), self.gap.len());
+        (0..rank).map(move |k| {
+            let rate = if self.is_held_fit {
+                self.held_fit
+                    .rate_if_released(k, rank, count, &mut self.damped)
+            } else {
+                self.solver.rate_if_released(k)
+            };
+            (self.binding[k].0, rate)
+        })
     }
 
     /// Siciliano and Slotine's recursion: the free minimiser, and a basis in its weight. `true` if the
@@ -218,6 +230,7 @@ impl LevelProgram {
             .held_fit
             .solve(problem, &mut self.damped, &mut self.velocity)
             && keeps_every_side(level, &self.velocity);
+        self.is_held_fit = is_solution;
         if is_solution {
             let multipliers = self.held_fit.multipliers().iter().copied();
             self.binding
