@@ -50,6 +50,11 @@ impl Evaluation {
         &self.kinematics
     }
 
+    /// How fast the value of a task can change, see [`Task::steepness`](crate::Task::steepness).
+    pub(crate) fn steepness(&self, stack: &Stack, task: TaskId) -> f64 {
+        stack[task].task().steepness(self.kinematics.reach())
+    }
+
     /// Whether the robot is at `q`.
     pub(crate) fn is_at(&self, q: &[f64]) -> bool {
         **self.kinematics.q() == *q

@@ -5,7 +5,7 @@ use alloc::vec::Vec;
 use crate::geometry::{Pose, Vec3};
 use crate::joints::JointVec;
 use crate::robot::dh::Link;
-use crate::robot::{JointKind, Robot};
+use crate::robot::{Joint, JointKind, Robot};
 use crate::trigonometry::sin_cos;
 
 /// A frame of the robot.
@@ -29,6 +29,7 @@ pub struct Kinematics {
     /// frame before it.
     base_from_frame: Vec<Pose>,
     twists: Vec<TwoTwists>,
+    reach: f64,
     q: JointVec,
     /// θ of each joint [rad], its sine and its cosine.
     angles: JointVec,
@@ -52,6 +53,7 @@ impl Kinematics {
             links: robot.joints().iter().map(Link::new).collect(),
             base_from_frame: alloc::vec![Pose::IDENTITY; robot.dof() + 1],
             twists: alloc::vec![TwoTwists::default(); robot.dof().div_ceil(2)],
+            reach: robot.joints().iter().map(length).sum(),
             q: zeros,
             angles: zeros,
             sines: zeros,
@@ -100,6 +102,13 @@ impl Kinematics {
     #[inline]
     pub fn dof(&self) -> usize {
         self.links.len()
+    }
+
+    /// The most that a point of the robot can be away from a joint that moves it [m]; infinite if the
+    /// robot has sliding joints.
+    #[inline]
+    pub fn reach(&self) -> f64 {
+        self.reach
     }
 
     /// The configuration [rad or m].
@@ -188,6 +197,14 @@ impl Kinematics {
         for still in &mut row[self.joints_before(frame)..] {
             *still = 0.0;
         }
+    }
+}
+
+/// How far the frame after a joint can be from the frame before it [m].
+fn length(joint: &Joint) -> f64 {
+    match joint.kind {
+        JointKind::Revolute => joint.dh.a_m.abs() + joint.dh.d_m.abs(),
+        JointKind::Prismatic => f64::INFINITY,
     }
 }
 

@@ -180,41 +180,51 @@ impl Nearest {
     /// One level further down: fits the velocity to what the level asks. Where the program has no
     /// answer, the velocity of the levels above stands.
     fn descend(&mut self, tick: &mut NearestTick<'_>, place: usize, velocity: &mut [f64]) {
+        let mut solution = self.solve(tick, place, velocity);
+        if solution == Solution::Optimal && !tick.barrier.covers(self.program.velocity()) {
+            tick.barrier.gather_far(tick.stack, tick.evaluation);
+            solution = self.solve(tick, place, velocity);
+        }
+        if solution == Solution::Optimal {
+            velocity.copy_from_slice(self.program.velocity());
+            self.remember(place, &tick.barrier.sides);
+        }
+    }
+
+    fn solve(&mut self, tick: &mut NearestTick<'_>, place: usize, from: &[f64]) -> Solution {
         let task = self.lower[place];
         let counted_on = self.held_before.union(&self.held);
         let push_back = self.push_back(tick, place);
         let level = Level {
             jacobian: tick.evaluation.jacobian(tick.stack, task),
             asked: &self.asked,
-            from: velocity,
+            from,
             above: &self.above,
             sides: &tick.barrier.sides,
             bounds: &tick.barrier.bounds,
             push_back,
         };
-        let mut solution = self.program.solve(&level, &counted_on, &[], tick.pivots);
-        if solution == Solution::Optimal && self.recursion == Recursion::SicilianoSlotine {
-            // The damping counts on held sides, and by that may be what makes one seem to move inward.
-            // It is released only if it also does when the damping does not count on it.
-            let remaining = still_held(&level, &self.program, &counted_on);
-            if remaining != counted_on {
-                solution = self.program.solve(&level, &remaining, &[], tick.pivots);
-                self.returning.clear();
-                let returns = |side| counted_on.contains(side) && !remaining.contains(side);
-                let binding = self.program.binding().map(|(i, _)| i);
-                self.returning
-                    .extend(binding.filter(|&i| returns(level.sides.get(i))));
-                if solution == Solution::Optimal && !self.returning.is_empty() {
-                    solution =
-                        self.program
-                            .solve(&level, &counted_on, &self.returning, tick.pivots);
-                }
-            }
+        let solution = self.program.solve(&level, &counted_on, &[], tick.pivots);
+        if solution != Solution::Optimal || self.recursion == Recursion::Chiaverini {
+            return solution;
         }
-        if solution == Solution::Optimal {
-            velocity.copy_from_slice(self.program.velocity());
-            self.remember(place, &tick.barrier.sides);
+        // The damping counts on held sides, and by that may be what makes one seem to move inward.
+        // It is released only if it also does when the damping does not count on it.
+        let remaining = still_held(&level, &self.program, &counted_on);
+        if remaining == counted_on {
+            return solution;
         }
+        let solution = self.program.solve(&level, &remaining, &[], tick.pivots);
+        self.returning.clear();
+        let returns = |side| counted_on.contains(side) && !remaining.contains(side);
+        let binding = self.program.binding().map(|(i, _)| i);
+        self.returning
+            .extend(binding.filter(|&i| returns(level.sides.get(i))));
+        if solution != Solution::Optimal || self.returning.is_empty() {
+            return solution;
+        }
+        self.program
+            .solve(&level, &counted_on, &self.returning, tick.pivots)
     }
 
     /// Σ μ c over the sides, with the multipliers of the last tick.

@@ -62,6 +62,10 @@ impl Task for Coordinate {
         kinematics.point_row(self.frame, self.axis.direction(), jacobian.row(0));
     }
 
+    fn steepness(&self, reach: f64) -> f64 {
+        reach
+    }
+
     fn unit(&self) -> &'static str {
         "m"
     }
