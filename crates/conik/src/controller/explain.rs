@@ -16,8 +16,8 @@ impl Controller {
             let reason = self.why_active(task);
             self.step.add_reason(reason);
         }
-        for task in was_active.iter() {
-            if !active.contains(task) {
+        if *was_active != active {
+            for task in was_active.iter().filter(|&task| !active.contains(task)) {
                 let reason = self.why_let_go(task);
                 self.step.add_reason(reason);
             }

@@ -62,6 +62,9 @@ impl Tick<'_> {
     /// J q̇ of a frozen set: zero, but for a bound or a task that moves by itself, and for a set that
     /// recovers from outside.
     fn frozen_rate(&self, task: TaskId) -> f64 {
+        if self.borders.are_at_ease() {
+            return 0.0;
+        }
         let sigma = self.evaluation.scalar(task);
         let border = self.borders.sides_at(task, sigma).next();
         let bound_rate = border.map_or(0.0, |side| {
