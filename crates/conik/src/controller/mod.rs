@@ -38,9 +38,9 @@ pub struct Controller {
     settings: Settings,
     period: f64,
     /// The robot at q.
-    here: Evaluation,
+    here: Box<Evaluation>,
     /// The robot where the last tick landed: the next q, as a rule.
-    there: Evaluation,
+    there: Box<Evaluation>,
     borders: Borders,
     barrier: Barrier,
     anchor: Anchor,
@@ -132,8 +132,8 @@ impl Controller {
         Ok(Self {
             period,
             settings,
-            here: Evaluation::new(robot, &stack, period),
-            there: Evaluation::new(robot, &stack, period),
+            here: Box::new(Evaluation::new(robot, &stack, period)),
+            there: Box::new(Evaluation::new(robot, &stack, period)),
             borders: Borders::new(&settings, &stack),
             barrier: Barrier::new(&stack, &settings, limits.accelerations()),
             anchor: Anchor::new(stack.dof(), 2 * stack.len()),

@@ -167,7 +167,9 @@ impl LevelProgram {
             .zip(self.rows.chunks_exact_mut(self.dof))
         {
             *gap -= dot(row, level.from);
-            level.above.project_out(row);
+            if level.above.rank() > 0 {
+                level.above.project_out(row);
+            }
         }
         self.take_held(level, held);
         if !must_hold && self.fit_held(level) {
