@@ -161,7 +161,16 @@ impl Hierarchy {
             self.asked_known[place] = true;
         }
         copy(&mut self.projected, asked);
-        self.above.project_out(&mut self.projected);
+        self.add_strictly_below(velocity);
+    }
+
+    /// q̇ += N v for the motion v at hand.
+    fn add_strictly_below(&mut self, velocity: &mut [f64]) {
+        // Near a singularity v may be much longer than N v; the second time takes out what rounding
+        // has left of the rows above.
+        for _ in 0..2 {
+            self.above.project_out(&mut self.projected);
+        }
         add_scaled(velocity, 1.0, &self.projected);
     }
 
@@ -182,10 +191,13 @@ impl Hierarchy {
             *gap -= dot(row, velocity);
             self.above.project_out(row);
         }
-        if self.damped.add_if_regular(rows, gap, velocity).is_none() {
+        self.projected.fill(0.0);
+        let motion = &mut self.projected;
+        if self.damped.add_if_regular(rows, gap, motion).is_none() {
             self.damped
-                .add_by_direction(rows, gap, lambda_squared, velocity);
+                .add_by_direction(rows, gap, lambda_squared, motion);
         }
+        self.add_strictly_below(velocity);
     }
 }
 

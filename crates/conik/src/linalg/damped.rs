@@ -93,6 +93,11 @@ impl Damped {
         is_regular.then_some(&self.rhs[..g.len()])
     }
 
+    /// x ← (A Aᵀ + l₀² I)⁻¹ x for the rows that were last found to need no damping.
+    pub(crate) fn solve_regular(&self, x: &mut [f64]) {
+        solve(&self.gram[..x.len() * x.len()], x.len(), x);
+    }
+
     /// x += Aᵀ (A Aᵀ + (1 − (s/ε)²) λ² I)⁻¹ g, s the smallest singular value: all directions damped
     /// alike, more the nearer the rows are to losing rank.
     pub(crate) fn add_damped(
@@ -133,7 +138,11 @@ impl Damped {
         let n = self.count;
         eigenvectors(&mut self.gram, n, &mut self.eigenvectors);
         for k in 0..n {
-            let squared = self.gram[k * n + k].max(0.0);
+            let squared = self.gram[k * n + k];
+            if squared <= NO_DIRECTION * NO_DIRECTION {
+                // What rounding leaves of rows that are taken is no direction to move in.
+                continue;
+            }
             let weight = (squared / (SINGULAR * SINGULAR)).min(1.0);
             let vector = &self.eigenvectors[k * n..][..n];
             let share =

@@ -30,6 +30,9 @@ pub(crate) struct HeldFit {
     /// g − A Qᵀ y
     gap: Vec<f64>,
     multipliers: Vec<f64>,
+    scratch: Vec<f64>,
+    /// Rows of A.
+    count: usize,
     dof: usize,
 }
 
@@ -58,6 +61,8 @@ impl HeldFit {
             y: alloc::vec![0.0; dof],
             gap: alloc::vec![0.0; max_rows],
             multipliers: alloc::vec![0.0; dof],
+            scratch: alloc::vec![0.0; max_rows],
+            count: 0,
             dof,
         }
     }
@@ -72,6 +77,7 @@ impl HeldFit {
     ) -> bool {
         let (dof, rank) = (self.dof, problem.held.len());
         let count = problem.gap.len();
+        self.count = count;
         copy(&mut self.gap[..count], problem.gap);
         for (i, &side) in problem.held.iter().enumerate() {
             let row = &problem.sides[side * dof..][..dof];
@@ -107,6 +113,29 @@ impl HeldFit {
         self.multipliers[..rank]
             .iter()
             .all(|&multiplier| multiplier >= 0.0)
+    }
+
+    /// How far beyond its bound a held row would go [unit/s] if it alone were let go: its multiplier
+    /// over vᵀ M v, where v = L⁻¹ eₖ and M = l₀² (I + Cᵀ (U Uᵀ + l₀² I)⁻¹ C), C = A Qᵀ, is the Hessian that
+    /// the problem leaves to y. `damped` as the solution left it.
+    pub(crate) fn rate_if_released(&mut self, k: usize, rank: usize, damped: &Damped) -> f64 {
+        let (dof, count) = (self.dof, self.count);
+        // y and the gap have served; v and C v take their place.
+        let (v, within) = (&mut self.y[..rank], &mut self.gap[..count]);
+        v.fill(0.0);
+        within.fill(0.0);
+        for i in k..rank {
+            let unit = if i == k { 1.0 } else { 0.0 };
+            let known: f64 = (k..i).map(|j| self.factor[i * dof + j] * v[j]).sum();
+            v[i] = (unit - known) / self.factor[i * dof + i];
+            add_scaled(within, v[i], &self.shares[i * count..][..count]);
+        }
+        let squared = dot(v, v);
+        let scratch = &mut self.scratch[..count];
+        copy(scratch, within);
+        damped.solve_regular(scratch);
+        let stiffness = STRICT * STRICT * (squared + dot(within, scratch));
+        self.multipliers[k] / stiffness
     }
 
     /// Multipliers of the held rows, in their order.

@@ -35,6 +35,8 @@ pub(crate) struct LevelProgram {
     velocity: Vec<f64>,
     /// The sides, by index, that bind in it, with their multipliers.
     binding: Vec<(usize, f64)>,
+    /// Whether the held fit was the solution, and not the solver's.
+    is_closed_form: bool,
     /// J, or J N.
     rows: Vec<f64>,
     /// What of J N is left beside the held sides.
@@ -84,6 +86,7 @@ impl LevelProgram {
             minimum_norm: MinimumNorm::new(dof, max_rows),
             velocity: alloc::vec![0.0; dof],
             binding: Vec::with_capacity(dof),
+            is_closed_form: false,
             rows: Vec::with_capacity(max_rows * dof),
             usable: Vec::with_capacity(max_rows * dof),
             gap: Vec::with_capacity(max_rows),
@@ -104,6 +107,7 @@ impl LevelProgram {
         pivots: &mut usize,
     ) -> Solution {
         self.binding.clear();
+        self.is_closed_form = false;
         self.rows.clear();
         self.rows.extend_from_slice(level.jacobian);
         self.gap.clear();
@@ -139,11 +143,18 @@ impl LevelProgram {
         self.binding.iter().copied()
     }
 
-    /// The sides, by index, that bind in the last solution, with how far beyond its bound each would go
-    /// [unit/s] if it alone were let go.
+    /// How far beyond its bound each binding side would go [unit/s] if it alone were let go, in the order
+    /// of [`binding`](Self::binding).
     pub(crate) fn crossings(&mut self) -> impl Iterator<Item = (usize, f64)> {
-        (0..self.solver.active().len())
-            .map(|k| (self.solver.active()[k], self.solver.rate_if_released(k)))
+        let rank = self.binding.len();
+        (0..rank).map(move |k| {
+            let rate = if self.is_closed_form {
+                self.held_fit.rate_if_released(k, rank, &self.damped)
+            } else {
+                self.solver.rate_if_released(k)
+            };
+            (self.binding[k].0, rate)
+        })
     }
 
     /// Siciliano and Slotine's recursion: the free minimiser, and a basis in its weight. `true` if the
@@ -218,6 +229,7 @@ impl LevelProgram {
             .held_fit
             .solve(problem, &mut self.damped, &mut self.velocity)
             && keeps_every_side(level, &self.velocity);
+        self.is_closed_form = is_solution;
         if is_solution {
             let multipliers = self.held_fit.multipliers().iter().copied();
             self.binding
