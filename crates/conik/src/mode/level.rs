@@ -14,6 +14,7 @@
 
 use alloc::vec::Vec;
 
+use crate::damping::Damping;
 use crate::linalg::{
     Constraints, Damped, DualActiveSet, HeldFit, HeldProblem, MinimumNorm, RowSpace, Solution,
     VIOLATION, add_scaled, copy, dot,
@@ -67,6 +68,7 @@ pub(crate) struct Level<'a> {
     pub(crate) bounds: &'a [f64],
     /// Σ μ c [task's unit/s].
     pub(crate) push_back: f64,
+    pub(crate) damping: Damping,
 }
 
 impl LevelProgram {
@@ -133,6 +135,11 @@ impl LevelProgram {
         solution
     }
 
+    /// How many directions of the task's the level had lost, or was about to, in the last solution.
+    pub(crate) fn lost(&self) -> usize {
+        self.damped.lost()
+    }
+
     /// The velocity of the last solution [rad/s].
     pub(crate) fn velocity(&self) -> &[f64] {
         &self.velocity
@@ -169,13 +176,17 @@ impl LevelProgram {
             level.above.project_out(row);
         }
         self.take_held(level, held);
-        if !must_hold && self.fit_held(level) {
+        let is_fixed = matches!(level.damping, Damping::Fixed(_));
+        if !must_hold && !is_fixed && self.fit_held(level) {
             return true;
         }
         copy(&mut self.velocity, level.from);
         let asked = sqrt(dot(level.asked, level.asked));
-        let lambda_squared = self.period * (asked + level.push_back);
-        self.damped.analyse(&self.usable);
+        let damping = level
+            .damping
+            .or_else(Damping::of_cone(Recursion::SicilianoSlotine));
+        let lambda_squared = damping.lambda_squared(self.period * (asked + level.push_back));
+        self.damped.analyse(damping, &self.usable);
         let dimension = level.above.complement(&mut self.free);
         let free = &self.free[..dimension * self.dof];
         let taken = self.taken.basis_from(level.above.rank());
@@ -242,14 +253,21 @@ impl LevelProgram {
     fn project(&mut self, level: &Level<'_>) {
         let mut motion = [0.0; crate::MAX_JOINTS];
         let motion = &mut motion[..self.dof];
-        if self.damped.is_regular(&self.rows) {
+        let damping = level
+            .damping
+            .or_else(Damping::of_cone(Recursion::Chiaverini));
+        let is_fixed = matches!(damping, Damping::Fixed(_));
+        if damping == Damping::None || (!is_fixed && self.damped.is_regular(&self.rows)) {
             self.minimum_norm.solve(&self.rows, &self.gap, motion);
         } else {
-            let lambda_squared = self.period * sqrt(dot(&self.gap, &self.gap));
+            let variable = self.period * sqrt(dot(&self.gap, &self.gap));
             self.damped
-                .add_damped(&self.rows, &self.gap, lambda_squared, motion);
+                .add(damping, &self.rows, &self.gap, variable, motion);
         }
-        level.above.project_out(motion);
+        // Near a singularity the motion may be much longer than what is left of it: twice is enough.
+        for _ in 0..2 {
+            level.above.project_out(motion);
+        }
         add_scaled(&mut self.velocity, 1.0, motion);
         let dimension = level.above.complement(&mut self.free);
         self.solver

@@ -48,6 +48,8 @@ pub(crate) struct Nearest {
     returning: Vec<usize>,
     /// How fast each side would be left if it were let go [unit/s].
     crossings: Vec<f64>,
+    /// Directions that each lower level has lost.
+    lost: Vec<usize>,
     tasks: usize,
 }
 
@@ -81,6 +83,7 @@ impl Nearest {
             held: Held::default(),
             low_active: ActiveSet::EMPTY,
             multipliers: alloc::vec![0.0; 2 * stack.len() * lower.len()],
+            lost: alloc::vec![0; lower.len()],
             lower,
             above: RowSpace::new(stack.dof(), max_rows),
             asked: Vec::with_capacity(max_rows),
@@ -96,6 +99,7 @@ impl Nearest {
         self.low_active = ActiveSet::EMPTY;
         self.above.truncate(0);
         self.crossings.fill(0.0);
+        self.lost.fill(0);
         velocity.fill(0.0);
         let mut level_above: Option<TaskId> = None;
         for place in 0..self.lower.len() {
@@ -116,6 +120,12 @@ impl Nearest {
     /// How fast a side would be left if it were let go [unit/s]; 0 if it would not.
     pub(crate) fn crossing(&self, side: Side) -> f64 {
         self.crossings[side.number()]
+    }
+
+    /// The levels that have lost directions, and how many.
+    pub(crate) fn lost(&self) -> impl Iterator<Item = (TaskId, usize)> {
+        let levels = self.lower.iter().copied().zip(self.lost.iter().copied());
+        levels.filter(|(_, lost)| *lost > 0)
     }
 
     /// Sides held by this tick's velocity.
@@ -191,6 +201,7 @@ impl Nearest {
             sides: &tick.barrier.sides,
             bounds: &tick.barrier.bounds,
             push_back,
+            damping: tick.stack[task].damping(),
         };
         let mut solution = self.program.solve(&level, &counted_on, &[], tick.pivots);
         if solution == Solution::Optimal && self.recursion == Recursion::SicilianoSlotine {
@@ -214,6 +225,7 @@ impl Nearest {
         if solution == Solution::Optimal {
             velocity.copy_from_slice(self.program.velocity());
             self.remember(place, &tick.barrier.sides);
+            self.lost[place] = self.program.lost();
         }
     }
 
