@@ -102,13 +102,14 @@ fn crowd(seed: u64) -> ([f64; 6], Stack) {
 fn crowds_are_kept_within_the_bounds_on_work() {
     let robot = Robot::builtin("ur5-paper").expect("built in");
     let mut moved = 0;
-    for seed in 0..24 {
+    let rates = [50.0, 125.0, 500.0, 1000.0].into_iter().cycle();
+    for (seed, rate_hz) in (0..24).zip(rates) {
         for recursion in [Recursion::Chiaverini, Recursion::SicilianoSlotine] {
             let settings = Settings {
                 mode_rule: ModeRule::Cone,
                 border: Border::Land,
                 recursion,
-                ..Settings::at_rate([50.0, 125.0, 500.0, 1000.0][seed as usize % 4])
+                ..Settings::at_rate(rate_hz)
             };
             let (q0, stack) = crowd(seed);
             let mut controller = Controller::new(&robot, stack, settings).expect("sound");

@@ -4,7 +4,7 @@ mod oracle;
 
 use std::collections::BTreeSet;
 
-use conik::{Border, JointVec, ModeRule, Recursion, Settings};
+use conik::{Border, JointVec, ModeRule, Recursion, Settings, TaskId};
 use oracle::scene::{Scene, any_arm, near_the_border, scene};
 use oracle::{Measure, Task, high_priority};
 use proptest::prelude::*;
@@ -63,7 +63,7 @@ fn assert_same(scene: &Scene, keys: &[u32], settings: Settings) -> Result<(), Te
                 second.qd
             );
         }
-        let names: BTreeSet<usize> = first.active.iter().map(|id| id.index()).collect();
+        let names: BTreeSet<usize> = first.active.iter().map(TaskId::index).collect();
         let others: BTreeSet<usize> = second.active.iter().map(|id| order[id.index()]).collect();
         prop_assert_eq!(names, others, "tick {}", tick);
     }
