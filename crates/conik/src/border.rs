@@ -18,6 +18,10 @@ use crate::task_id::TaskId;
 /// step has room to bend towards the bound without crossing it.
 pub(crate) const MARGIN: f64 = 1e-7;
 
+/// A set not yet entered is held at a new best value once that is this far inside the last hold [task's
+/// unit]. A margin below would follow every rounding.
+const GAIN: f64 = 3.0 * MARGIN;
+
 #[derive(Debug)]
 pub(crate) struct Borders {
     border: Border,
@@ -63,12 +67,17 @@ impl Borders {
                 hold.interval = set;
             } else {
                 // Not yet inside: the side that is exceeded is held at its best value so far. The
-                // slack is given once, and never grows.
-                let best = hold.interval;
-                hold.interval = Interval {
-                    min: set.min.min((sigma - MARGIN).max(best.min)),
-                    max: set.max.max((sigma + MARGIN).min(best.max)),
-                };
+                // slack is given once, and never grows. Not every small gain is followed: two sets that
+                // pull apart would soon leave no room between them, and the arm would stand still.
+                let best = &mut hold.interval;
+                if sigma - best.min > GAIN {
+                    best.min = sigma - MARGIN;
+                }
+                if best.max - sigma > GAIN {
+                    best.max = sigma + MARGIN;
+                }
+                best.min = best.min.min(set.min);
+                best.max = best.max.max(set.max);
             }
         }
     }
