@@ -194,6 +194,7 @@ fn out_of_pivots_the_velocity_of_the_levels_above_stands() {
     for recursion in [Recursion::Chiaverini, Recursion::SicilianoSlotine] {
         let settings = Settings {
             mode_rule: ModeRule::Cone,
+            border: Border::Freeze,
             recursion,
             ..Settings::at_rate(125.0)
         };

@@ -13,12 +13,12 @@
 
 use alloc::vec::Vec;
 
-use super::symmetric::{cholesky, eigenvectors, solve_lower, solve_lower_transposed};
-use super::{add_scaled, dot};
+use super::symmetric::{eigenvectors, factor, solve};
+use super::{COMMON, add_scaled, dot};
 use crate::real::sqrt;
 
 /// l₀: weight of the velocity itself [task's unit per rad].
-const STRICT: f64 = 1e-3;
+pub(super) const STRICT: f64 = 1e-3;
 
 /// ε: singular values below this are damped [task's unit per rad].
 pub(crate) const SINGULAR: f64 = 0.2;
@@ -70,21 +70,32 @@ impl Damped {
     /// Whether every singular value of the rows is at least ε, so that nothing is damped.
     pub(crate) fn is_regular(&mut self, rows: &[f64]) -> bool {
         self.fill_gram(rows, -SINGULAR * SINGULAR);
-        cholesky(&mut self.gram, self.count)
+        factor(&mut self.gram, self.count)
     }
 
-    /// x += the solution for rows all of whose directions are undamped: Aᵀ (A Aᵀ + l₀² I)⁻¹ g.
-    pub(crate) fn add_regular(&mut self, rows: &[f64], g: &[f64], x: &mut [f64]) {
-        self.fill_gram(rows, STRICT * STRICT);
-        let n = self.count;
-        self.rhs[..n].copy_from_slice(g);
-        // Positive definite by the shift, unless a task gave NaN, which shows in x.
-        cholesky(&mut self.gram, n);
-        solve_lower(&self.gram, n, &mut self.rhs[..n]);
-        solve_lower_transposed(&self.gram, n, &mut self.rhs[..n]);
-        for (row, y) in rows.chunks_exact(self.dof).zip(&self.rhs[..n]) {
-            add_scaled(x, *y, row);
-        }
+    /// If no direction of the rows needs damping, x += Aᵀ w with w = (A Aᵀ + l₀² I)⁻¹ g, and w.
+    #[inline]
+    pub(crate) fn add_if_regular(
+        &mut self,
+        rows: &[f64],
+        g: &[f64],
+        x: &mut [f64],
+    ) -> Option<&[f64]> {
+        let Self {
+            gram, rhs: w, dof, ..
+        } = self;
+        // The same code each time; known sizes let the compiler unroll it.
+        let is_regular = match (g.len(), *dof) {
+            (1, COMMON) => add_if_regular(1, COMMON, gram, rows, g, w, x),
+            (3, COMMON) => add_if_regular(3, COMMON, gram, rows, g, w, x),
+            (count, dof) => add_if_regular(count, dof, gram, rows, g, w, x),
+        };
+        is_regular.then_some(&self.rhs[..g.len()])
+    }
+
+    /// x ← (A Aᵀ + l₀² I)⁻¹ x for the rows that were last found to need no damping.
+    pub(crate) fn solve_regular(&self, x: &mut [f64]) {
+        solve(&self.gram[..x.len() * x.len()], x.len(), x);
     }
 
     /// x += Aᵀ (A Aᵀ + (1 − (s/ε)²) λ² I)⁻¹ g, s the smallest singular value: all directions damped
@@ -107,9 +118,8 @@ impl Damped {
             lambda_squared * (1.0 - least / (SINGULAR * SINGULAR)).max(0.0) + STRICT * STRICT;
         self.fill_gram(rows, shift);
         self.rhs[..n].copy_from_slice(g);
-        cholesky(&mut self.gram, n);
-        solve_lower(&self.gram, n, &mut self.rhs[..n]);
-        solve_lower_transposed(&self.gram, n, &mut self.rhs[..n]);
+        factor(&mut self.gram, n);
+        solve(&self.gram, n, &mut self.rhs[..n]);
         for (row, y) in rows.chunks_exact(self.dof).zip(&self.rhs[..n]) {
             add_scaled(x, *y, row);
         }
@@ -128,7 +138,11 @@ impl Damped {
         let n = self.count;
         eigenvectors(&mut self.gram, n, &mut self.eigenvectors);
         for k in 0..n {
-            let squared = self.gram[k * n + k].max(0.0);
+            let squared = self.gram[k * n + k];
+            if squared <= NO_DIRECTION * NO_DIRECTION {
+                // What rounding leaves of rows that are taken is no direction to move in.
+                continue;
+            }
             let weight = (squared / (SINGULAR * SINGULAR)).min(1.0);
             let vector = &self.eigenvectors[k * n..][..n];
             let share =
@@ -202,18 +216,63 @@ impl Damped {
         for (direction, weight) in self.directions.chunks_exact(dof).zip(&self.weights) {
             add_outer(direction, -lambda_squared * weight);
         }
-        cholesky(hessian, n);
-        // B = L⁻¹ span, row by row.
+        factor(hessian, n);
+        // B = D^(−1/2) L⁻¹ span, row by row.
         basis[..n * dof].copy_from_slice(&span[..n * dof]);
         for i in 0..n {
             let (done, row) = basis.split_at_mut(i * dof);
-            let row = &mut row[..dof];
             for (earlier, share) in done.chunks_exact(dof).zip(&hessian[i * n..]) {
-                add_scaled(row, -share, earlier);
+                add_scaled(&mut row[..dof], -share, earlier);
             }
-            for value in row.iter_mut() {
-                *value /= hessian[i * n + i];
+        }
+        for (i, row) in basis[..n * dof].chunks_exact_mut(dof).enumerate() {
+            let scale = sqrt(hessian[i * n + i]);
+            for value in row {
+                *value *= scale;
             }
         }
     }
+}
+
+#[inline(always)]
+#[allow(clippy::inline_always, reason = "for the sake of known sizes")]
+fn add_if_regular(
+    count: usize,
+    dof: usize,
+    gram: &mut [f64],
+    rows: &[f64],
+    g: &[f64],
+    w: &mut [f64],
+    x: &mut [f64],
+) -> bool {
+    let (rows, x) = (&rows[..count * dof], &mut x[..dof]);
+    let (gram, w) = (&mut gram[..count * count], &mut w[..count]);
+    let row = |i: usize| &rows[i * dof..][..dof];
+    // The factor needs only the lower triangle. The upper one keeps the matrix itself, w its diagonal.
+    for i in 0..count {
+        for j in 0..i {
+            let entry = dot(row(i), row(j));
+            gram[i * count + j] = entry;
+            gram[j * count + i] = entry;
+        }
+        w[i] = dot(row(i), row(i));
+        gram[i * count + i] = w[i] - SINGULAR * SINGULAR;
+    }
+    if !factor(gram, count) {
+        return false;
+    }
+    for i in 0..count {
+        for j in 0..i {
+            gram[i * count + j] = gram[j * count + i];
+        }
+        gram[i * count + i] = w[i] + STRICT * STRICT;
+    }
+    // Positive definite by the shift, unless a task gave NaN, which shows in x.
+    factor(gram, count);
+    w.copy_from_slice(&g[..count]);
+    solve(gram, count, w);
+    for i in 0..count {
+        add_scaled(x, w[i], row(i));
+    }
+    true
 }

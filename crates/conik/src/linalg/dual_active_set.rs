@@ -16,7 +16,7 @@ use super::{add_scaled, dot};
 use crate::real::sqrt;
 
 /// A row counts as violated below this [unit/s].
-const VIOLATION: f64 = 1e-11;
+pub(crate) const VIOLATION: f64 = 1e-11;
 
 /// A row of which less than this share is left beside the active ones depends on them.
 const DEPENDENT: f64 = 1e-9;
@@ -88,11 +88,6 @@ impl DualActiveSet {
         &mut self.basis[..dimension * self.dof]
     }
 
-    /// Forgets the last solution.
-    pub(crate) fn clear(&mut self) {
-        self.active.clear();
-    }
-
     /// Indices of the rows that hold with equality, in the order in which they were added.
     pub(crate) fn active(&self) -> &[usize] {
         &self.active
@@ -101,6 +96,22 @@ impl DualActiveSet {
     /// Multipliers of the active rows.
     pub(crate) fn multipliers(&self) -> &[f64] {
         &self.multipliers[..self.active.len()]
+    }
+
+    /// How far beyond its bound an active row would go [unit/s] if it alone were let go: its multiplier
+    /// over the diagonal of (A H⁻¹ Aᵀ)⁻¹.
+    pub(crate) fn rate_if_released(&mut self, k: usize) -> f64 {
+        let rank = self.active.len();
+        // w = R⁻ᵀ eₖ, forward; the diagonal is |w|².
+        for j in 0..rank {
+            let known: f64 = (0..j)
+                .map(|i| self.factor[j * self.dof + i] * self.scratch[i])
+                .sum();
+            let unit = if j == k { 1.0 } else { 0.0 };
+            self.scratch[j] = (unit - known) / self.factor[j * self.dof + j];
+        }
+        let row = &self.scratch[..rank];
+        self.multipliers[k] / dot(row, row)
     }
 
     /// Turns `x` from the free minimiser into the constrained one. `pivots` is what is left of the

@@ -3,12 +3,14 @@
 
 mod damped;
 mod dual_active_set;
+mod held_fit;
 mod minimum_norm;
 mod row_space;
 mod symmetric;
 
 pub(crate) use damped::Damped;
-pub(crate) use dual_active_set::{Constraints, DualActiveSet, Solution};
+pub(crate) use dual_active_set::{Constraints, DualActiveSet, Solution, VIOLATION};
+pub(crate) use held_fit::{HeldFit, HeldProblem};
 pub(crate) use minimum_norm::MinimumNorm;
 pub(crate) use row_space::RowSpace;
 
@@ -53,6 +55,33 @@ pub(crate) fn add_scaled(y: &mut [f64], factor: f64, x: &[f64]) {
     }
     for (y, x) in y.iter_mut().zip(x) {
         *y += factor * x;
+    }
+}
+
+/// `y = x`
+#[inline]
+pub(crate) fn copy(y: &mut [f64], x: &[f64]) {
+    if let (Ok(y), Ok(x)) = (
+        <&mut [f64; COMMON]>::try_from(&mut *y),
+        <&[f64; COMMON]>::try_from(x),
+    ) {
+        *y = *x;
+        return;
+    }
+    y.copy_from_slice(x);
+}
+
+/// Index of the first number that is not finite.
+#[inline]
+pub(crate) fn not_finite(values: &[f64]) -> Option<usize> {
+    // Almost always there is none, which is found out without a branch for each number.
+    let is_any = values
+        .iter()
+        .fold(false, |found, value| found | !value.is_finite());
+    if is_any {
+        values.iter().position(|value| !value.is_finite())
+    } else {
+        None
     }
 }
 

@@ -15,7 +15,8 @@
 use alloc::vec::Vec;
 
 use crate::linalg::{
-    Constraints, Damped, DualActiveSet, MinimumNorm, RowSpace, Solution, add_scaled, dot,
+    Constraints, Damped, DualActiveSet, HeldFit, HeldProblem, MinimumNorm, RowSpace, Solution,
+    VIOLATION, add_scaled, copy, dot,
 };
 use crate::real::sqrt;
 use crate::settings::{Recursion, Settings};
@@ -28,9 +29,14 @@ pub(crate) struct LevelProgram {
     period: f64,
     solver: DualActiveSet,
     damped: Damped,
+    held_fit: HeldFit,
     minimum_norm: MinimumNorm,
     /// The answer.
     velocity: Vec<f64>,
+    /// The sides, by index, that bind in it, with their multipliers.
+    binding: Vec<(usize, f64)>,
+    /// Whether the held fit was the solution, and not the solver's.
+    is_closed_form: bool,
     /// J, or J N.
     rows: Vec<f64>,
     /// What of J N is left beside the held sides.
@@ -39,6 +45,8 @@ pub(crate) struct LevelProgram {
     gap: Vec<f64>,
     /// Rows of the levels above and of the held sides.
     taken: RowSpace,
+    /// The held sides, by index, of which a row was taken.
+    held: Vec<usize>,
     /// Orthonormal rows that span the free motions.
     free: Vec<f64>,
     dof: usize,
@@ -74,12 +82,16 @@ impl LevelProgram {
             period: 1.0 / settings.rate_hz,
             solver: DualActiveSet::new(dof),
             damped: Damped::new(dof, max_rows),
+            held_fit: HeldFit::new(dof, max_rows),
             minimum_norm: MinimumNorm::new(dof, max_rows),
             velocity: alloc::vec![0.0; dof],
+            binding: Vec::with_capacity(dof),
+            is_closed_form: false,
             rows: Vec::with_capacity(max_rows * dof),
             usable: Vec::with_capacity(max_rows * dof),
             gap: Vec::with_capacity(max_rows),
             taken: RowSpace::new(dof, max_rows),
+            held: Vec::with_capacity(dof),
             free: alloc::vec![0.0; dof * dof],
             dof,
         }
@@ -94,12 +106,13 @@ impl LevelProgram {
         equal: &[usize],
         pivots: &mut usize,
     ) -> Solution {
-        self.solver.clear();
+        self.binding.clear();
+        self.is_closed_form = false;
         self.rows.clear();
         self.rows.extend_from_slice(level.jacobian);
         self.gap.clear();
         self.gap.extend_from_slice(level.asked);
-        self.velocity.copy_from_slice(level.from);
+        copy(&mut self.velocity, level.from);
         match self.recursion {
             Recursion::Chiaverini => self.project(level),
             Recursion::SicilianoSlotine => {
@@ -113,7 +126,11 @@ impl LevelProgram {
             bounds: level.bounds,
             equalities: equal,
         };
-        self.solver.solve(&mut self.velocity, constraints, pivots)
+        let solution = self.solver.solve(&mut self.velocity, constraints, pivots);
+        let multipliers = self.solver.multipliers().iter().copied();
+        self.binding
+            .extend(self.solver.active().iter().copied().zip(multipliers));
+        solution
     }
 
     /// The velocity of the last solution [rad/s].
@@ -123,11 +140,21 @@ impl LevelProgram {
 
     /// The sides, by index, that bind in the last solution, with their multipliers.
     pub(crate) fn binding(&self) -> impl Iterator<Item = (usize, f64)> {
-        self.solver
-            .active()
-            .iter()
-            .copied()
-            .zip(self.solver.multipliers().iter().copied())
+        self.binding.iter().copied()
+    }
+
+    /// How far beyond its bound each binding side would go [unit/s] if it alone were let go, in the order
+    /// of [`binding`](Self::binding).
+    pub(crate) fn crossings(&mut self) -> impl Iterator<Item = (usize, f64)> {
+        let rank = self.binding.len();
+        (0..rank).map(move |k| {
+            let rate = if self.is_closed_form {
+                self.held_fit.rate_if_released(k, rank, &self.damped)
+            } else {
+                self.solver.rate_if_released(k)
+            };
+            (self.binding[k].0, rate)
+        })
     }
 
     /// Siciliano and Slotine's recursion: the free minimiser, and a basis in its weight. `true` if the
@@ -142,15 +169,10 @@ impl LevelProgram {
             level.above.project_out(row);
         }
         self.take_held(level, held);
-        let nothing_held = self.taken.rank() == level.above.rank();
-        if nothing_held && !must_hold && self.damped.is_regular(&self.usable) {
-            self.damped
-                .add_regular(&self.rows, &self.gap, &mut self.velocity);
-            if keeps_every_side(level, &self.velocity) {
-                return true;
-            }
-            self.velocity.copy_from_slice(level.from);
+        if !must_hold && self.fit_held(level) {
+            return true;
         }
+        copy(&mut self.velocity, level.from);
         let asked = sqrt(dot(level.asked, level.asked));
         let lambda_squared = self.period * (asked + level.push_back);
         self.damped.analyse(&self.usable);
@@ -176,18 +198,44 @@ impl LevelProgram {
     /// taken ← rows of the levels above and of the held sides; usable ← what of J N is left.
     fn take_held(&mut self, level: &Level<'_>, held: &Held) {
         self.taken.copy_from(level.above);
-        for (side, row) in level.sides.iter() {
-            if held.contains(side) {
-                self.taken.push(row);
+        self.held.clear();
+        for (i, (side, row)) in level.sides.iter().enumerate() {
+            if held.contains(side) && self.taken.push(row) {
+                self.held.push(i);
             }
         }
         self.usable.clear();
         self.usable.extend_from_slice(&self.rows);
-        if self.taken.rank() > level.above.rank() {
+        if !self.held.is_empty() {
             for row in self.usable.chunks_exact_mut(self.dof) {
                 self.taken.project_out(row);
             }
         }
+    }
+
+    /// The usual tick: what was held binds, and nothing else. `true` if that is so, and the velocity
+    /// then the solution: there is one only, and it is the one that satisfies the conditions for it.
+    fn fit_held(&mut self, level: &Level<'_>) -> bool {
+        let problem = HeldProblem {
+            rows: &self.rows,
+            usable: &self.usable,
+            gap: &self.gap,
+            orthonormal: self.taken.basis_from(level.above.rank()),
+            held: &self.held,
+            sides: level.sides.rows(),
+            bounds: level.bounds,
+        };
+        let is_solution = self
+            .held_fit
+            .solve(problem, &mut self.damped, &mut self.velocity)
+            && keeps_every_side(level, &self.velocity);
+        self.is_closed_form = is_solution;
+        if is_solution {
+            let multipliers = self.held_fit.multipliers().iter().copied();
+            self.binding
+                .extend(self.held.iter().copied().zip(multipliers));
+        }
+        is_solution
     }
 
     /// Chiaverini's recursion: q̇₀ + N J⁺ s, and an orthonormal basis.
@@ -215,5 +263,5 @@ fn keeps_every_side(level: &Level<'_>, velocity: &[f64]) -> bool {
         .sides
         .iter()
         .zip(level.bounds)
-        .all(|((_, row), bound)| dot(row, velocity) >= *bound)
+        .all(|((_, row), bound)| dot(row, velocity) >= *bound - VIOLATION)
 }

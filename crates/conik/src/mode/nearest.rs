@@ -9,17 +9,19 @@
 //!
 //! A low-priority set is a level of its own. While the velocity of the levels above keeps it, or brings
 //! it closer from outside, it is inactive and only binds the levels below. Otherwise it is active
-//! and asks: inside, to stop at the border; outside, to come back with its gain.
+//! and asks: inside, to stop at the border; outside, to come back with its gain. Once active outside
+//! it stays so until it is inside, or the levels above bring it back as fast as it asks.
 
 use alloc::vec::Vec;
 
 use super::level::{Level, LevelProgram};
 use crate::active::ActiveSet;
+use crate::barrier::Barrier;
 use crate::border::Borders;
 use crate::evaluation::Evaluation;
 use crate::linalg::{RowSpace, Solution, dot};
-use crate::settings::{Border, Recursion, Settings};
-use crate::sides::{Held, Side, Sides, distance_inside, landing_rate};
+use crate::settings::{Recursion, Settings};
+use crate::sides::{Held, Side, Sides};
 use crate::stack::{Goal, Stack};
 use crate::task_id::TaskId;
 
@@ -30,14 +32,10 @@ const RELEASE: f64 = 1e-7;
 #[derive(Debug)]
 pub(crate) struct Nearest {
     recursion: Recursion,
-    border: Border,
     period: f64,
     /// The equality tasks, and the sets below the first of them, in list order.
     lower: Vec<TaskId>,
     program: LevelProgram,
-    sides: Sides,
-    /// b, one for each side.
-    bounds: Vec<f64>,
     /// Sides held in the last tick, and in this one so far.
     held_before: Held,
     held: Held,
@@ -48,6 +46,8 @@ pub(crate) struct Nearest {
     above: RowSpace,
     asked: Vec<f64>,
     returning: Vec<usize>,
+    /// How fast each side would be left if it were let go [unit/s].
+    crossings: Vec<f64>,
     tasks: usize,
 }
 
@@ -55,6 +55,8 @@ pub(crate) struct Nearest {
 pub(crate) struct NearestTick<'a> {
     pub(crate) stack: &'a Stack,
     pub(crate) evaluation: &'a mut Evaluation,
+    /// What the high-priority sets allow. Low-priority ones that are kept add to it.
+    pub(crate) barrier: &'a mut Barrier,
     pub(crate) borders: &'a Borders,
     pub(crate) pivots: &'a mut usize,
 }
@@ -73,11 +75,8 @@ impl Nearest {
             .collect();
         Self {
             recursion: settings.recursion,
-            border: settings.border,
             period: 1.0 / settings.rate_hz,
             program: LevelProgram::new(stack, settings),
-            sides: Sides::new(stack),
-            bounds: Vec::with_capacity(2 * stack.len()),
             held_before: Held::default(),
             held: Held::default(),
             low_active: ActiveSet::EMPTY,
@@ -86,13 +85,17 @@ impl Nearest {
             above: RowSpace::new(stack.dof(), max_rows),
             asked: Vec::with_capacity(max_rows),
             returning: Vec::with_capacity(2 * stack.len()),
+            crossings: alloc::vec![0.0; 2 * stack.len()],
             tasks: stack.len(),
         }
     }
 
     /// The velocity of this tick, and its active sets.
     pub(crate) fn choose(&mut self, tick: &mut NearestTick<'_>, velocity: &mut [f64]) -> ActiveSet {
-        self.begin(tick);
+        self.held_before = core::mem::take(&mut self.held);
+        self.low_active = ActiveSet::EMPTY;
+        self.above.truncate(0);
+        self.crossings.fill(0.0);
         velocity.fill(0.0);
         let mut level_above: Option<TaskId> = None;
         for place in 0..self.lower.len() {
@@ -106,46 +109,18 @@ impl Nearest {
             }
             self.descend(tick, place, velocity);
         }
-        self.keep_what_does_not_leave(velocity);
+        self.keep_what_does_not_leave(tick.barrier, velocity);
         self.held.tasks().union(&self.low_active)
+    }
+
+    /// How fast a side would be left if it were let go [unit/s]; 0 if it would not.
+    pub(crate) fn crossing(&self, side: Side) -> f64 {
+        self.crossings[side.number()]
     }
 
     /// Sides held by this tick's velocity.
     pub(crate) fn held(&self) -> Held {
         self.held
-    }
-
-    /// Gathers the sides of the high-priority sets.
-    fn begin(&mut self, tick: &mut NearestTick<'_>) {
-        self.held_before = core::mem::take(&mut self.held);
-        self.low_active = ActiveSet::EMPTY;
-        self.above.truncate(0);
-        self.sides.clear();
-        self.bounds.clear();
-        for (task, level) in tick.stack.iter() {
-            if level.interval().is_none() {
-                break;
-            }
-            for is_upper in [false, true] {
-                let side = Side { task, is_upper };
-                let inside = distance_inside(tick.borders, side, tick.evaluation.scalar(task));
-                if let Some(bound) = self.bound(inside) {
-                    self.sides.push(tick.stack, tick.evaluation, side);
-                    self.bounds.push(bound);
-                }
-            }
-        }
-    }
-
-    /// b for a side whose bound is `inside` away; `None` if it binds nothing.
-    fn bound(&self, inside: f64) -> Option<f64> {
-        match self.border {
-            Border::Freeze => (inside <= 0.0).then_some(0.0),
-            Border::Land if inside == f64::INFINITY => None,
-            Border::Land if inside >= 0.0 => Some(landing_rate(inside, self.period).min(0.0)),
-            // Outside a set that had been entered: its bound, or the arm, was moved.
-            Border::Land => Some(landing_rate(inside, self.period)),
-        }
     }
 
     /// What a level asks for, into `asked`. `false` for a low-priority set that asks for nothing; its
@@ -156,42 +131,45 @@ impl Nearest {
             Goal::Equality {
                 desired_rate, gain, ..
             } => {
-                let errors = tick.evaluation.errors().of(task).iter();
-                self.asked.extend(
-                    errors
-                        .zip(desired_rate)
-                        .map(|(error, rate)| rate + gain * error),
-                );
+                let errors = tick.evaluation.errors().of(task);
+                let drifts = tick.evaluation.drifts().of(task);
+                let components = errors.iter().zip(desired_rate).zip(drifts);
+                self.asked
+                    .extend(components.map(|((error, rate), drift)| rate + gain * error - drift));
                 true
             }
-            Goal::Set { interval, gain } => {
+            Goal::Set { interval, gain, .. } => {
                 let (interval, gain) = (*interval, gain.unwrap_or(0.0));
                 let sigma = tick.evaluation.scalar(task);
                 let rate = dot(tick.evaluation.jacobian(tick.stack, task), velocity);
-                let lower = (false, sigma - interval.min, rate);
-                let upper = (true, interval.max - sigma, -rate);
-                for (is_upper, inside, rate) in [lower, upper] {
-                    let side = Side { task, is_upper };
-                    let kept = if inside < 0.0 {
-                        0.0
+                for side in Side::both(task) {
+                    let inside = side.inside(&interval, sigma);
+                    let bound_rate = tick.borders.bound_rate(side);
+                    let approaching = side.inward(bound_rate - tick.evaluation.drift(task));
+                    let (rest, back) = if inside < 0.0 {
+                        (0.0, -gain * inside)
                     } else {
-                        -inside / self.period
+                        (-inside / self.period, 0.0)
                     };
-                    let slack = if self.held_before.contains(side) {
-                        RELEASE
+                    let kept = approaching + rest;
+                    let asked = kept + back;
+                    // Not released as soon as the others cease to carry it out: they may do so by turns.
+                    let needed = if self.held_before.contains(side) {
+                        asked + RELEASE
                     } else {
-                        0.0
+                        kept
                     };
-                    if rate < kept + slack {
+                    let rate = side.inward(rate);
+                    if rate < needed {
                         self.held.insert(side);
                         self.low_active.insert(task);
-                        let asked = if inside < 0.0 { -gain * inside } else { kept };
-                        self.asked.push(if is_upper { -asked } else { asked });
+                        self.asked.push(side.inward(asked));
+                        self.crossings[side.number()] = (kept - rate).max(0.0);
                         return true;
                     }
                     if kept > f64::NEG_INFINITY {
-                        self.sides.push(tick.stack, tick.evaluation, side);
-                        self.bounds.push(kept.min(rate));
+                        tick.barrier
+                            .push(tick.stack, tick.evaluation, side, kept.min(rate));
                     }
                 }
                 false
@@ -210,8 +188,8 @@ impl Nearest {
             asked: &self.asked,
             from: velocity,
             above: &self.above,
-            sides: &self.sides,
-            bounds: &self.bounds,
+            sides: &tick.barrier.sides,
+            bounds: &tick.barrier.bounds,
             push_back,
         };
         let mut solution = self.program.solve(&level, &counted_on, &[], tick.pivots);
@@ -235,17 +213,17 @@ impl Nearest {
         }
         if solution == Solution::Optimal {
             velocity.copy_from_slice(self.program.velocity());
-            self.remember(place);
+            self.remember(place, &tick.barrier.sides);
         }
     }
 
     /// Σ μ c over the sides, with the multipliers of the last tick.
     fn push_back(&self, tick: &NearestTick<'_>, place: usize) -> f64 {
         let multipliers = &self.multipliers[place * 2 * self.tasks..];
-        let pushes = self
-            .sides
+        let pushes = tick
+            .barrier
             .iter()
-            .map(|(side, _)| match multipliers[side.number()] {
+            .map(|(side, _, _)| match multipliers[side.number()] {
                 0.0 => 0.0,
                 multiplier => {
                     let sigma = tick.evaluation.scalar(side.task);
@@ -256,19 +234,23 @@ impl Nearest {
     }
 
     /// Which sides bind, and how hard.
-    fn remember(&mut self, place: usize) {
+    fn remember(&mut self, place: usize, sides: &Sides) {
         let memory = &mut self.multipliers[place * 2 * self.tasks..][..2 * self.tasks];
         memory.fill(0.0);
         for (i, multiplier) in self.program.binding() {
-            let side = self.sides.get(i);
+            let side = sides.get(i);
             self.held.insert(side);
             memory[side.number()] = multiplier;
+        }
+        for (i, rate) in self.program.crossings() {
+            let crossing = &mut self.crossings[sides.get(i).number()];
+            *crossing = crossing.max(rate);
         }
     }
 
     /// A side that was held and does not move inward stays held, whatever its multiplier.
-    fn keep_what_does_not_leave(&mut self, velocity: &[f64]) {
-        for ((side, row), bound) in self.sides.iter().zip(&self.bounds) {
+    fn keep_what_does_not_leave(&mut self, barrier: &Barrier, velocity: &[f64]) {
+        for (side, row, bound) in barrier.iter() {
             if self.held_before.contains(side) && dot(row, velocity) <= bound + RELEASE {
                 self.held.insert(side);
             }
