@@ -22,7 +22,7 @@ use crate::border::{Borders, MARGIN};
 use crate::evaluation::Evaluation;
 use crate::joints::JointVec;
 use crate::linalg::{Constraints, DualActiveSet, Solution, add_scaled};
-use crate::sides::{Held, Side, Sides, distance_inside, landing_rate};
+use crate::sides::{Held, Side, Sides, distance_inside};
 use crate::stack::Stack;
 
 /// Corrections of one trial.
@@ -30,6 +30,15 @@ const CORRECTIONS: usize = 2;
 
 /// Halvings before the arm stands still.
 const HALVINGS: usize = 2;
+
+/// After a tick that had to stand still, the next one sets out with this share of the share before.
+/// So halving goes on from tick to tick until a step is short enough for the rows at q, and no tick
+/// takes more kinematics than another.
+const CAUTION: f64 = 0.125;
+
+/// Shares of the margin that a correction aims at. Two bounds may be closer than two margins: those
+/// of sets that were never entered and contradict each other.
+const MARGIN_SHARES: [f64; 3] = [1.0, 0.5, 0.0625];
 
 /// What it took to land.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -51,6 +60,8 @@ pub(crate) struct Landing {
     bounds: Vec<f64>,
     equalities: Vec<usize>,
     change: Vec<f64>,
+    /// Share of the velocity that the next tick tries first.
+    caution: f64,
     period: f64,
 }
 
@@ -74,6 +85,7 @@ impl Landing {
             bounds: Vec::with_capacity(2 * stack.len()),
             equalities: Vec::with_capacity(2 * stack.len()),
             change: alloc::vec![0.0; stack.dof()],
+            caution: 1.0,
             period,
         }
     }
@@ -93,6 +105,12 @@ impl Landing {
         let mut landed = Landed::default();
         self.sides.clear();
         let mut corrections = 0;
+        if self.caution < 1.0 {
+            is_scaled = true;
+            for speed in qd.iter_mut() {
+                *speed *= self.caution;
+            }
+        }
         loop {
             for ((target, q), qd) in target.iter_mut().zip(q).zip(qd.iter()) {
                 *target = q + self.period * qd;
@@ -101,6 +119,7 @@ impl Landing {
             approach.there.update(approach.stack, target);
             let is_last = corrections == CORRECTIONS;
             if is_inside(approach) && (is_scaled || is_last || holds_margins(approach, held)) {
+                self.caution = (2.0 * self.caution).min(1.0);
                 return landed;
             }
             if !is_last && self.correct(approach, held, is_scaled, qd) {
@@ -112,6 +131,7 @@ impl Landing {
             }
             if landed.halvings == HALVINGS {
                 landed.stood_still = true;
+                self.caution = (self.caution * CAUTION).max(f64::MIN_POSITIVE);
                 qd.fill(0.0);
                 target.copy_from_slice(q);
                 return landed;
@@ -134,17 +154,22 @@ impl Landing {
         qd: &mut JointVec,
     ) -> bool {
         self.gather(approach);
-        self.bounds.clear();
         self.equalities.clear();
-        for (i, (side, _)) in self.sides.iter().enumerate() {
-            let inside = distance_inside(approach.borders, side, approach.there.scalar(side.task));
-            self.bounds.push(landing_rate(inside, self.period));
-            if held.contains(side) && !is_scaled {
-                self.equalities.push(i);
-            }
+        if !is_scaled {
+            let is_held = |(i, (side, _)): (usize, (Side, _))| held.contains(side).then_some(i);
+            self.equalities
+                .extend(self.sides.iter().enumerate().filter_map(is_held));
         }
-        // Held sides that cannot all be met may still all be kept.
-        for equalities in [&self.equalities[..], &[]] {
+        // Held sides that cannot all be met may still all be kept, or kept by less.
+        let attempts = [&self.equalities[..], &[], &[], &[]];
+        let shares = MARGIN_SHARES[..1].iter().chain(&MARGIN_SHARES);
+        for (equalities, share) in attempts.into_iter().zip(shares) {
+            self.bounds.clear();
+            for (side, _) in self.sides.iter() {
+                let inside =
+                    distance_inside(approach.borders, side, approach.there.scalar(side.task));
+                self.bounds.push((share * MARGIN - inside) / self.period);
+            }
             self.change.fill(0.0);
             self.solver.set_identity();
             let constraints = Constraints {
