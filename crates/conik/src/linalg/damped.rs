@@ -164,6 +164,15 @@ impl Damped {
         }
     }
 
+    /// The square of the smallest singular value of the rows, and l₀².
+    pub(crate) fn least_squared(&mut self, rows: &[f64]) -> f64 {
+        self.fill_gram(rows, 0.0);
+        let n = self.count;
+        eigenvectors(&mut self.gram, n, &mut self.eigenvectors);
+        let least = (0..n).map(|k| self.gram[k * n + k]);
+        least.fold(f64::INFINITY, f64::min).max(0.0) + STRICT * STRICT
+    }
+
     /// Rows B, orthonormal in H = AᵀA + R, that span what the orthonormal rows `span` span. R is that of
     /// the last analysis, P that of the orthonormal rows `held`.
     pub(crate) fn weighted_basis(

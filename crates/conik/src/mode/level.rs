@@ -14,6 +14,7 @@
 
 use alloc::vec::Vec;
 
+use super::claims::Claims;
 use crate::linalg::{
     Constraints, Damped, DualActiveSet, MinimumNorm, RowSpace, Solution, add_scaled, dot,
 };
@@ -21,6 +22,8 @@ use crate::real::sqrt;
 use crate::settings::{Recursion, Settings};
 use crate::sides::{Held, Sides};
 use crate::stack::Stack;
+
+const FLOOR: f64 = 0.04;
 
 #[derive(Debug)]
 pub(crate) struct LevelProgram {
@@ -31,11 +34,11 @@ pub(crate) struct LevelProgram {
     minimum_norm: MinimumNorm,
     /// The answer.
     velocity: Vec<f64>,
-    /// J, or J N.
+    /// J, or J N and the motions that are dear to the levels above.
     rows: Vec<f64>,
     /// What of J N is left beside the held sides.
     usable: Vec<f64>,
-    /// s, or s − J q̇₀.
+    /// s, or s − J q̇₀ and none of those.
     gap: Vec<f64>,
     /// Rows of the levels above and of the held sides.
     taken: RowSpace,
@@ -52,8 +55,8 @@ pub(crate) struct Level<'a> {
     pub(crate) asked: &'a [f64],
     /// q̇₀ [rad/s].
     pub(crate) from: &'a [f64],
-    /// The rows of the levels above.
-    pub(crate) above: &'a RowSpace,
+    /// What the levels above have claimed.
+    pub(crate) above: &'a Claims,
     pub(crate) sides: &'a Sides,
     /// b, one for each side.
     pub(crate) bounds: &'a [f64],
@@ -76,9 +79,9 @@ impl LevelProgram {
             damped: Damped::new(dof, max_rows),
             minimum_norm: MinimumNorm::new(dof, max_rows),
             velocity: alloc::vec![0.0; dof],
-            rows: Vec::with_capacity(max_rows * dof),
+            rows: Vec::with_capacity((max_rows + stack.len() * dof) * dof),
             usable: Vec::with_capacity(max_rows * dof),
-            gap: Vec::with_capacity(max_rows),
+            gap: Vec::with_capacity(max_rows + stack.len() * dof),
             taken: RowSpace::new(dof, max_rows),
             free: alloc::vec![0.0; dof * dof],
             dof,
@@ -139,11 +142,15 @@ impl LevelProgram {
             .zip(self.rows.chunks_exact_mut(self.dof))
         {
             *gap -= dot(row, level.from);
-            level.above.project_out(row);
+            level.above.rows().project_out(row);
         }
         self.take_held(level, held);
-        let nothing_held = self.taken.rank() == level.above.rank();
-        if nothing_held && !must_hold && self.damped.is_regular(&self.usable) {
+        let nothing_held = self.taken.rank() == level.above.rows().rank();
+        if nothing_held
+            && !must_hold
+            && level.above.dear().is_empty()
+            && self.damped.is_regular(&self.usable)
+        {
             self.damped
                 .add_regular(&self.rows, &self.gap, &mut self.velocity);
             if keeps_every_side(level, &self.velocity) {
@@ -152,11 +159,18 @@ impl LevelProgram {
             self.velocity.copy_from_slice(level.from);
         }
         let asked = sqrt(dot(level.asked, level.asked));
-        let lambda_squared = self.period * (asked + level.push_back);
+        self.rows.extend_from_slice(level.above.dear());
+        self.gap.resize(self.rows.len() / self.dof, 0.0);
+        let floor = if level.above.rows().rank() == 0 {
+            0.0
+        } else {
+            FLOOR
+        };
+        let lambda_squared = (self.period * (asked + level.push_back)).max(floor);
         self.damped.analyse(&self.usable);
-        let dimension = level.above.complement(&mut self.free);
+        let dimension = level.above.rows().complement(&mut self.free);
         let free = &self.free[..dimension * self.dof];
-        let taken = self.taken.basis_from(level.above.rank());
+        let taken = self.taken.basis_from(level.above.rows().rank());
         let basis = self.solver.basis_mut(dimension);
         self.damped
             .weighted_basis(&self.rows, lambda_squared, taken, free, basis);
@@ -175,7 +189,7 @@ impl LevelProgram {
 
     /// taken ← rows of the levels above and of the held sides; usable ← what of J N is left.
     fn take_held(&mut self, level: &Level<'_>, held: &Held) {
-        self.taken.copy_from(level.above);
+        self.taken.copy_from(level.above.rows());
         for (side, row) in level.sides.iter() {
             if held.contains(side) {
                 self.taken.push(row);
@@ -183,7 +197,7 @@ impl LevelProgram {
         }
         self.usable.clear();
         self.usable.extend_from_slice(&self.rows);
-        if self.taken.rank() > level.above.rank() {
+        if self.taken.rank() > level.above.rows().rank() {
             for row in self.usable.chunks_exact_mut(self.dof) {
                 self.taken.project_out(row);
             }
@@ -201,9 +215,9 @@ impl LevelProgram {
             self.damped
                 .add_damped(&self.rows, &self.gap, lambda_squared, motion);
         }
-        level.above.project_out(motion);
+        level.above.rows().project_out(motion);
         add_scaled(&mut self.velocity, 1.0, motion);
-        let dimension = level.above.complement(&mut self.free);
+        let dimension = level.above.rows().complement(&mut self.free);
         self.solver
             .basis_mut(dimension)
             .copy_from_slice(&self.free[..dimension * self.dof]);

@@ -13,11 +13,13 @@
 
 use alloc::vec::Vec;
 
+use super::claims::{Claims, Turn};
 use super::level::{Level, LevelProgram};
 use crate::active::ActiveSet;
 use crate::border::Borders;
 use crate::evaluation::Evaluation;
-use crate::linalg::{RowSpace, Solution, dot};
+use crate::linalg::{Solution, dot};
+use crate::real::sqrt;
 use crate::settings::{Border, Recursion, Settings};
 use crate::sides::{Held, Side, Sides, distance_inside, landing_rate};
 use crate::stack::{Goal, Stack};
@@ -26,6 +28,9 @@ use crate::task_id::TaskId;
 /// A side that was held is released when it moves inward faster than this [unit/s]. Rounding alone
 /// must not release it and hold it again.
 const RELEASE: f64 = 1e-7;
+
+/// The same for a set of low priority, whose rate also changes with what holds the levels above.
+const LOW_RELEASE: f64 = 1e-4;
 
 #[derive(Debug)]
 pub(crate) struct Nearest {
@@ -44,9 +49,11 @@ pub(crate) struct Nearest {
     low_active: ActiveSet,
     /// Multiplier of each side at each level in the last tick: how hard the set pushes back.
     multipliers: Vec<f64>,
-    /// Rows of the levels above the present one.
-    above: RowSpace,
+    /// What the levels above the present one have claimed.
+    above: Claims,
     asked: Vec<f64>,
+    /// r: what the level above the present one asked for and did not get.
+    unmet: Vec<f64>,
     returning: Vec<usize>,
     tasks: usize,
 }
@@ -81,9 +88,10 @@ impl Nearest {
             held_before: Held::default(),
             held: Held::default(),
             low_active: ActiveSet::EMPTY,
+            above: Claims::new(stack.dof(), max_rows, lower.len(), 1.0 / settings.rate_hz),
+            unmet: Vec::with_capacity(max_rows),
             multipliers: alloc::vec![0.0; 2 * stack.len() * lower.len()],
             lower,
-            above: RowSpace::new(stack.dof(), max_rows),
             asked: Vec::with_capacity(max_rows),
             returning: Vec::with_capacity(2 * stack.len()),
             tasks: stack.len(),
@@ -94,17 +102,27 @@ impl Nearest {
     pub(crate) fn choose(&mut self, tick: &mut NearestTick<'_>, velocity: &mut [f64]) -> ActiveSet {
         self.begin(tick);
         velocity.fill(0.0);
-        let mut level_above: Option<TaskId> = None;
+        let mut level_above: Option<usize> = None;
         for place in 0..self.lower.len() {
             let task = self.lower[place];
             if !self.ask(tick, task, velocity) {
                 continue;
             }
-            if let Some(previous) = level_above.replace(task) {
-                self.above
-                    .push_block(tick.evaluation.jacobian(tick.stack, previous));
+            if let Some(previous) = level_above.replace(place) {
+                self.claim(tick, previous);
             }
             self.descend(tick, place, velocity);
+            self.unmet.clear();
+            let rows = tick
+                .evaluation
+                .jacobian(tick.stack, task)
+                .chunks_exact(velocity.len());
+            self.unmet.extend(
+                self.asked
+                    .iter()
+                    .zip(rows)
+                    .map(|(asked, row)| asked - dot(row, velocity)),
+            );
         }
         self.keep_what_does_not_leave(velocity);
         self.held.tasks().union(&self.low_active)
@@ -119,7 +137,7 @@ impl Nearest {
     fn begin(&mut self, tick: &mut NearestTick<'_>) {
         self.held_before = core::mem::take(&mut self.held);
         self.low_active = ActiveSet::EMPTY;
-        self.above.truncate(0);
+        self.above.clear();
         self.sides.clear();
         self.bounds.clear();
         for (task, level) in tick.stack.iter() {
@@ -177,15 +195,15 @@ impl Nearest {
                     } else {
                         -inside / self.period
                     };
-                    let slack = if self.held_before.contains(side) {
-                        RELEASE
+                    let asked = if inside < 0.0 { -gain * inside } else { kept };
+                    let enough = if self.held_before.contains(side) {
+                        asked + LOW_RELEASE
                     } else {
-                        0.0
+                        kept
                     };
-                    if rate < kept + slack {
+                    if rate < enough {
                         self.held.insert(side);
                         self.low_active.insert(task);
-                        let asked = if inside < 0.0 { -gain * inside } else { kept };
                         self.asked.push(if is_upper { -asked } else { asked });
                         return true;
                     }
@@ -203,33 +221,37 @@ impl Nearest {
     /// answer, the velocity of the levels above stands.
     fn descend(&mut self, tick: &mut NearestTick<'_>, place: usize, velocity: &mut [f64]) {
         let task = self.lower[place];
-        let counted_on = self.held_before.union(&self.held);
-        let push_back = self.push_back(tick, place);
-        let level = Level {
-            jacobian: tick.evaluation.jacobian(tick.stack, task),
+        tick.evaluation.jacobian(tick.stack, task);
+        let (stack, evaluation) = (tick.stack, &*tick.evaluation);
+        let multipliers = &self.multipliers[place * 2 * self.tasks..];
+        let counting_on = |held: &Held| Level {
+            jacobian: evaluation.known_jacobian(task),
             asked: &self.asked,
             from: velocity,
             above: &self.above,
             sides: &self.sides,
             bounds: &self.bounds,
-            push_back,
+            push_back: push_back(stack, evaluation, &self.sides, held, multipliers),
         };
-        let mut solution = self.program.solve(&level, &counted_on, &[], tick.pivots);
+        let all = self.held_before.union(&self.held);
+        let level = counting_on(&all);
+        let mut solution = self.program.solve(&level, &all, &[], tick.pivots);
         if solution == Solution::Optimal && self.recursion == Recursion::SicilianoSlotine {
             // The damping counts on held sides, and by that may be what makes one seem to move inward.
             // It is released only if it also does when the damping does not count on it.
-            let remaining = still_held(&level, &self.program, &counted_on);
-            if remaining != counted_on {
-                solution = self.program.solve(&level, &remaining, &[], tick.pivots);
+            let remaining = still_held(&level, &self.program, &all);
+            if remaining != all {
+                let without = counting_on(&remaining);
+                solution = self.program.solve(&without, &remaining, &[], tick.pivots);
+                let binds = |i: &usize| all.contains(self.sides.get(*i));
                 self.returning.clear();
-                let returns = |side| counted_on.contains(side) && !remaining.contains(side);
-                let binding = self.program.binding().map(|(i, _)| i);
                 self.returning
-                    .extend(binding.filter(|&i| returns(level.sides.get(i))));
-                if solution == Solution::Optimal && !self.returning.is_empty() {
-                    solution =
-                        self.program
-                            .solve(&level, &counted_on, &self.returning, tick.pivots);
+                    .extend(self.program.binding().map(|(i, _)| i).filter(binds));
+                let returns = |&i: &usize| !remaining.contains(self.sides.get(i));
+                if solution == Solution::Optimal && self.returning.iter().any(returns) {
+                    solution = self
+                        .program
+                        .solve(&level, &all, &self.returning, tick.pivots);
                 }
             }
         }
@@ -239,20 +261,34 @@ impl Nearest {
         }
     }
 
-    /// Σ μ c over the sides, with the multipliers of the last tick.
-    fn push_back(&self, tick: &NearestTick<'_>, place: usize) -> f64 {
-        let multipliers = &self.multipliers[place * 2 * self.tasks..];
-        let pushes = self
-            .sides
-            .iter()
-            .map(|(side, _)| match multipliers[side.number()] {
-                0.0 => 0.0,
-                multiplier => {
-                    let sigma = tick.evaluation.scalar(side.task);
-                    multiplier.abs() * tick.stack[side.task].task().bend(sigma)
+    /// A level that has had its turn claims its motions from those below. `self.unmet` is its r.
+    fn claim(&mut self, tick: &mut NearestTick<'_>, place: usize) {
+        let task = self.lower[place];
+        if self.recursion == Recursion::SicilianoSlotine {
+            tick.evaluation.jacobian(tick.stack, task);
+            let evaluation = &*tick.evaluation;
+            let multipliers = &self.multipliers[place * 2 * self.tasks..];
+            let turn = Turn {
+                jacobian: evaluation.known_jacobian(task),
+                unmet: sqrt(dot(&self.unmet, &self.unmet)),
+            };
+            let pushes = |(side, row): (Side, _)| (multipliers[side.number()] > 0.0).then_some(row);
+            let pushing = self.sides.iter().filter_map(pushes);
+            self.above.claim_rest(&turn, pushing, |curvature| {
+                let mut add = |task: TaskId, weights: &[f64]| {
+                    let task = tick.stack[task].task();
+                    task.add_curvature(evaluation.kinematics(), weights, curvature);
+                };
+                add(task, &self.unmet);
+                for (side, _) in self.sides.iter() {
+                    let push = multipliers[side.number()];
+                    if push > 0.0 {
+                        add(side.task, &[if side.is_upper { -push } else { push }]);
+                    }
                 }
             });
-        pushes.sum()
+        }
+        self.above.claim(tick.evaluation.jacobian(tick.stack, task));
     }
 
     /// Which sides bind, and how hard.
@@ -274,6 +310,24 @@ impl Nearest {
             }
         }
     }
+}
+
+/// Σ μ c over the sides held, with the multipliers of the last tick.
+fn push_back(
+    stack: &Stack,
+    evaluation: &Evaluation,
+    sides: &Sides,
+    held: &Held,
+    multipliers: &[f64],
+) -> f64 {
+    let pushes = sides
+        .iter()
+        .filter(|(side, _)| multipliers[side.number()] != 0.0 && held.contains(*side))
+        .map(|(side, _)| {
+            let bend = stack[side.task].task().bend(evaluation.scalar(side.task));
+            multipliers[side.number()].abs() * bend
+        });
+    pushes.sum()
 }
 
 /// The sides counted on that the solution does not release.
