@@ -15,6 +15,8 @@ pub struct Arguments {
     pub paper: bool,
     /// The course of this scene instead of all of them.
     pub only: Option<u64>,
+    /// From which tick on the course is printed tick by tick, for a while.
+    pub from_tick: Option<usize>,
 }
 
 impl Arguments {
@@ -27,6 +29,7 @@ impl Arguments {
             combos: Vec::new(),
             paper: false,
             only: None,
+            from_tick: None,
         };
         while let Some(word) = words.next() {
             let mut value = || words.next().ok_or(format!("{word} needs a value"));
@@ -36,6 +39,7 @@ impl Arguments {
                 "--seed" => arguments.seed = number(&word, &value()?)?,
                 "--jobs" => arguments.jobs = number::<usize>(&word, &value()?)?.max(1),
                 "--only" => arguments.only = Some(number(&word, &value()?)?),
+                "--from-tick" => arguments.from_tick = Some(number(&word, &value()?)?),
                 "--combo" => arguments.combos.push(value()?.parse()?),
                 "--paper" => arguments.paper = true,
                 _ => return Err(format!("unknown argument {word}")),

@@ -43,7 +43,7 @@ impl Combo {
     }
 
     /// The settings at a control rate [Hz].
-    pub fn settings(&self, rate_hz: f64) -> Settings {
+    pub fn settings(self, rate_hz: f64) -> Settings {
         Settings {
             mode_rule: self.rule,
             border: self.border,

@@ -15,6 +15,7 @@
 mod arguments;
 mod chain;
 mod combo;
+mod course;
 mod examples;
 #[path = "../../tests/paper/mod.rs"]
 mod paper;
@@ -39,7 +40,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         examples::print(&arguments.combos);
     } else if let Some(index) = arguments.only {
         for combo in &arguments.combos {
-            trace::print(arguments.seed, index, *combo)?;
+            trace::print(arguments.seed, index, *combo, arguments.from_tick)?;
         }
     } else {
         table::print_head(arguments.scenes, arguments.seed);

@@ -55,7 +55,7 @@ impl Scene {
         let q0 = configuration(random);
         let start = Chain::at(&q0);
         let mut high = Vec::new();
-        for _ in 0..1 + random.below(4) {
+        for _ in 0..=random.below(4) {
             high.push(obstacle(random, &start));
         }
         for _ in 0..random.below(3) {
@@ -75,7 +75,7 @@ impl Scene {
         let waypoints = (0..2).map(|_| waypoint(random, &high)).collect();
         let mut low = Vec::new();
         if random.chance(0.25) {
-            for _ in 0..1 + random.below(2) {
+            for _ in 0..=random.below(2) {
                 let set = match random.below(3) {
                     0 => view(random, &start),
                     1 => {

@@ -13,6 +13,9 @@ pub const ROUNDING: f64 = 1e-12;
 /// More mode changes than this in a scene are flicker.
 pub const FLICKER: usize = 30;
 
+/// So many mode changes may fall into the time in which the arm comes to rest.
+pub const SETTLING: usize = 3;
+
 /// What is wrong with the outcome of a scene, if anything.
 pub fn complaint(scene: &Scene, outcome: &Outcome) -> Option<String> {
     let mut complaints = Vec::new();
@@ -38,7 +41,7 @@ pub fn complaint(scene: &Scene, outcome: &Outcome) -> Option<String> {
         ),
     );
     complain(
-        outcome.changes_at_rest > 0,
+        outcome.changes_at_rest > SETTLING,
         format!("{} changes at rest", outcome.changes_at_rest),
     );
     complain(
@@ -64,7 +67,19 @@ pub fn complaint(scene: &Scene, outcome: &Outcome) -> Option<String> {
             outcome.most_kinematics, outcome.most_pivots
         ),
     );
-    (!complaints.is_empty()).then(|| format!("{} ({} Hz)", complaints.join(", "), scene.rate_hz))
+    let posture = if scene.posture.is_some() {
+        ", posture"
+    } else {
+        ""
+    };
+    (!complaints.is_empty()).then(|| {
+        format!(
+            "{} ({} Hz, {} low{posture})",
+            complaints.join(", "),
+            scene.rate_hz,
+            scene.low.len()
+        )
+    })
 }
 
 pub fn print_head(scenes: u64, seed: u64) {
@@ -139,7 +154,7 @@ pub fn print_row(combo: Combo, outcomes: Vec<(Scene, Outcome)>) {
             at(&changes, 0.9),
             at(&changes, 1.0)
         ),
-        count(&|o| o.mode_changes > FLICKER || o.changes_at_rest > 0).to_string(),
+        count(&|o| o.mode_changes > FLICKER || o.changes_at_rest > SETTLING).to_string(),
         format!("{}/{}", at(&reversals, 0.99), at(&reversals, 1.0)),
         count(&Outcome::stopped_falsely).to_string(),
         count(&Outcome::stopped).to_string(),

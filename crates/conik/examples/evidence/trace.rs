@@ -11,9 +11,17 @@ use crate::table;
 /// Lines between changes of mode, about so many in a run.
 const LINES: usize = 64;
 
-pub fn print(seed: u64, index: u64, combo: Combo) -> Result<(), StackError> {
+/// Prints every tick of a stretch of this length, where one is asked for.
+const STRETCH: usize = 40;
+
+pub fn print(
+    seed: u64,
+    index: u64,
+    combo: Combo,
+    from_tick: Option<usize>,
+) -> Result<(), StackError> {
     let scene = Scene::random(seed, index);
-    println!("{combo}, scene {index} of seed {seed}: {scene:#?}");
+    println!("{combo}, scene {index} of seed {seed}: {scene:?}");
     let names = |active: &ActiveSet| -> String {
         let numbers: Vec<String> = active.iter().map(|task| task.index().to_string()).collect();
         format!("[{}]", numbers.join(" "))
@@ -24,12 +32,17 @@ pub fn print(seed: u64, index: u64, combo: Combo) -> Result<(), StackError> {
         &scene,
         combo.settings(scene.rate_hz),
         |tick, chain, step| {
-            if tick % every == 0 || step.active != before {
+            let is_asked = match from_tick {
+                Some(from) => (from..from + STRETCH).contains(&tick),
+                None => tick % every == 0 || step.active != before,
+            };
+            if is_asked {
                 let insides: Vec<String> = scene
                     .high
                     .iter()
                     .map(|set| format!("{:9.2e}", -set.outside(chain.value(set.measure))))
                     .collect();
+                let angles: Vec<String> = step.q_ref.iter().map(|v| format!("{v:7.4}")).collect();
                 let qd: Vec<String> = step.qd.iter().map(|v| format!("{v:9.5}")).collect();
                 let target = scene
                     .waypoints
@@ -38,12 +51,15 @@ pub fn print(seed: u64, index: u64, combo: Combo) -> Result<(), StackError> {
                     .collect::<Vec<_>>()
                     .join(" ");
                 println!(
-                    "{:8.3} s {:12} inside [{}] to waypoints {target} qd [{}] {:?}",
+                    "{:8.3} s {:12} inside [{}] to waypoints {target} q [{}] qd [{}] {}+{}+{}",
                     tick as f64 / scene.rate_hz,
                     names(&step.active),
                     insides.join(" "),
+                    angles.join(" "),
                     qd.join(" "),
-                    step.landed,
+                    step.landed.kinematics,
+                    step.landed.corrections,
+                    step.landed.halvings,
                 );
             }
             before = step.active;
