@@ -83,13 +83,13 @@ pub struct RunArguments {
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Override the scenario")]
 pub struct Overrides {
-    /// Which rule chooses the active sets: `paper` or `border`
+    /// Which rule chooses the active sets: `paper`, `border` or `cone`
     #[arg(long, value_name = "RULE")]
     pub mode_rule: Option<String>,
-    /// What happens at the border of a set between samples: `freeze`
+    /// What happens at the border of a set between samples: `freeze` or `land`
     #[arg(long, value_name = "BORDER")]
     pub border: Option<String>,
-    /// How lower levels are fitted under higher ones: `chiaverini`
+    /// How lower levels are fitted under higher ones: `chiaverini` or `siciliano-slotine`
     #[arg(long, value_name = "RECURSION")]
     pub recursion: Option<String>,
     /// Length of the run [s]

@@ -8,6 +8,7 @@ mod overrides;
 mod present;
 mod progress;
 
+use std::io::{self, Write};
 use std::process::ExitCode;
 
 use arguments::{Arguments, Command};
@@ -24,7 +25,8 @@ fn main() -> ExitCode {
         Command::Completions { shell } => commands::completions::completions(shell),
     };
     done.unwrap_or_else(|failure| {
-        eprintln!("{}", failure.text());
+        // Nobody may be reading: the status says it too.
+        let _ = writeln!(io::stderr(), "{}", failure.text());
         ExitCode::from(failure.status())
     })
 }

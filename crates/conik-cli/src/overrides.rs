@@ -47,11 +47,9 @@ fn choose<T: Choice + 'static>(
     *value = T::from_name(name).ok_or_else(|| {
         let known: Vec<&str> = T::ALL.iter().map(|(choice, _)| choice.name()).collect();
         let known = known.join("`, `");
-        Failure::input(if T::NOT_YET.contains(&name) {
-            format!("--{option}: this version does not have `{name}` yet; it has `{known}`")
-        } else {
-            format!("--{option}: there is no `{name}`; give one of `{known}`")
-        })
+        Failure::input(format!(
+            "--{option}: there is no `{name}`; give one of `{known}`"
+        ))
     })?;
     Ok(())
 }

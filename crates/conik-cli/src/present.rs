@@ -2,8 +2,8 @@
 
 use conik_cli::report::units::{limit, optional, quantity};
 use conik_sim::experiment::Experiment;
-use conik_sim::scenario::{Choice, Control, GoalConfig, Scenario, TaskConfig};
-use conik_sim::summary::{Outcome, Property, Summary};
+use conik_sim::scenario::{Border, Choice, Control, GoalConfig, Scenario, TaskConfig};
+use conik_sim::summary::{Landing, Outcome, Property, Summary};
 
 use crate::layout::{counted, table, wrapped};
 
@@ -27,7 +27,7 @@ pub fn heading(scenario: &Scenario, arm: &str) -> String {
 }
 
 /// The three choices of how the controller works.
-pub fn rules(control: &Control) -> String {
+fn rules(control: &Control) -> String {
     format!(
         "rule {}, border {}, recursion {}",
         control.mode_rule.name(),
@@ -62,7 +62,7 @@ fn outcome(summary: &Summary) -> String {
         format!("at {} s", summary.ended_at_s)
     };
     match &summary.outcome {
-        Outcome::Completed => String::new(),
+        Outcome::Completed | Outcome::Running => String::new(),
         Outcome::Interrupted => {
             format!("stopped by hand {when}; the arm was brought to a stop first\n")
         }
@@ -204,11 +204,14 @@ fn properties(summary: &Summary) -> String {
         text.push('\n');
     }
     if !high_priority_holds {
-        text += &wrapped(
-            "  ",
-            "border `freeze` promises nothing between samples: such dips are of the order of one \
-             period's motion",
-        );
+        let why = match summary.settings.scenario.control.border {
+            Border::Freeze => {
+                "border `freeze` promises nothing between samples: such dips are of the order of \
+                 one period's motion"
+            }
+            Border::Land => "border `land` promises 2 to 4: this is a fault",
+        };
+        text += &wrapped("  ", why);
     }
     text
 }
@@ -240,7 +243,24 @@ fn limits(summary: &Summary, experiment: &Experiment) -> String {
             ),
         );
     }
+    if let Some(landing) = summary.landing.filter(|landing| landing.halvings > 0) {
+        text += &wrapped("  ", &halvings(&landing, period));
+    }
     text
+}
+
+fn halvings(landing: &Landing, period: f64) -> String {
+    let halved = format!(
+        "to stay inside the sets the velocity was halved {}",
+        counted(landing.halvings, "time")
+    );
+    if landing.stood_still_ticks == 0 {
+        return halved;
+    }
+    format!(
+        "{halved}, and for {:.3} s no velocity would do, and the arm stood still",
+        landing.stood_still_ticks as f64 * period
+    )
 }
 
 fn machine(summary: &Summary) -> String {

@@ -1,5 +1,6 @@
 //! The progress line of a run: time, mode, active sets, distance to go.
 
+use std::io::{self, Write};
 use std::time::{Duration, Instant};
 
 use conik_sim::experiment::Experiment;
@@ -85,7 +86,8 @@ impl Progress {
             bar.set_position(record.tick);
             bar.set_message(line);
         } else {
-            eprintln!("{line}");
+            // Nobody may be reading: the run goes on all the same.
+            let _ = writeln!(io::stderr(), "{line}");
         }
     }
 

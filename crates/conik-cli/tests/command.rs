@@ -2,6 +2,9 @@
 
 mod command {
     mod bad_input;
+    mod default_rules;
+    mod documents;
+    mod gallery;
     mod network;
     mod outputs;
     mod process;

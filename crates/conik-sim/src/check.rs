@@ -3,7 +3,9 @@
 use conik::{Frame, Stack, TaskId, Vec3, dependent_tasks};
 
 use crate::experiment::Experiment;
-use crate::scenario::{GoalConfig, Scenario, TaskConfig, TaskKind};
+use crate::scenario::{
+    Border, Choice, Control, GoalConfig, ModeRule, Recursion, Scenario, TaskConfig, TaskKind,
+};
 
 /// What a look at a scenario found, before anything moves.
 #[derive(Clone, Debug, PartialEq)]
@@ -30,10 +32,15 @@ pub fn find(scenario: &Scenario, experiment: &Experiment) -> Findings {
         })
         .collect();
     let mut doubts = Vec::new();
+    rules_that_stand_in_the_way(&scenario.control, &mut doubts);
     starts_outside(stack, &values, &mut doubts);
     depends(stack, &dependent_tasks(stack, &kinematics), &mut doubts);
     goals_in_obstacles(scenario, &mut doubts);
-    exclusive_obstacles_that_meet(scenario, &mut doubts);
+    if scenario.control.mode_rule == ModeRule::Cone {
+        exclusive_without_effect(&scenario.control, &mut doubts);
+    } else {
+        exclusive_obstacles_that_meet(scenario, &mut doubts);
+    }
     out_of_reach(scenario, experiment, &mut doubts);
     no_equality(stack, &mut doubts);
     Findings {
@@ -54,6 +61,41 @@ pub fn find(scenario: &Scenario, experiment: &Experiment) -> Findings {
             })
             .collect(),
         doubts,
+    }
+}
+
+fn rules_that_stand_in_the_way(control: &Control, doubts: &mut Vec<String>) {
+    if control.mode_rule == ModeRule::Paper {
+        doubts.push(
+            "rule `paper` may freeze a set that is nowhere near its border, and then wait for ever: \
+             rule `cone` never does"
+                .to_owned(),
+        );
+    }
+    if control.border == Border::Freeze {
+        doubts.push(
+            "border `freeze` decides at samples and undoes nothing: high-priority sets may be left \
+             by what the arm moves in one period; border `land` keeps every sample inside"
+                .to_owned(),
+        );
+    }
+    if control.mode_rule == ModeRule::Cone && control.recursion == Recursion::Chiaverini {
+        doubts.push(format!(
+            "rule `cone` with recursion `{}` may come to rest where the sets leave a way on: \
+             recursion `{}` finds it",
+            Recursion::Chiaverini.name(),
+            Recursion::SicilianoSlotine.name()
+        ));
+    }
+}
+
+fn exclusive_without_effect(control: &Control, doubts: &mut Vec<String>) {
+    if !control.exclusive.is_empty() {
+        doubts.push(
+            "`exclusive` has no effect with rule `cone`, which needs no such help: a mode in which \
+             two of its members are active can occur, and has no number in the log"
+                .to_owned(),
+        );
     }
 }
 

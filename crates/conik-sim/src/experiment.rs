@@ -90,6 +90,14 @@ impl Experiment {
     }
 }
 
+impl Experiment {
+    /// How many waypoints there are to reach.
+    pub fn waypoint_count(&self) -> usize {
+        let waypoints = self.waypoints.as_ref();
+        waypoints.map_or(0, |(_, waypoints)| waypoints.points().len())
+    }
+}
+
 impl Control {
     /// Index of the tick at the end of the run: tick k is at t = k / rate.
     pub fn last_tick(&self) -> u64 {
@@ -102,17 +110,20 @@ impl Control {
 
 fn settings(control: &Control) -> Settings {
     Settings {
+        rate_hz: control.rate_hz,
         mode_rule: match control.mode_rule {
             ModeRule::Paper => conik::ModeRule::Paper,
             ModeRule::Border => conik::ModeRule::Border,
+            ModeRule::Cone => conik::ModeRule::Cone,
         },
         border: match control.border {
             Border::Freeze => conik::Border::Freeze,
+            Border::Land => conik::Border::Land,
         },
         recursion: match control.recursion {
             Recursion::Chiaverini => conik::Recursion::Chiaverini,
+            Recursion::SicilianoSlotine => conik::Recursion::SicilianoSlotine,
         },
-        ..Settings::at_rate(control.rate_hz)
     }
 }
 

@@ -11,6 +11,7 @@ pub mod arm;
 pub mod check;
 pub mod experiment;
 pub mod log;
+pub mod promise;
 pub mod record;
 pub mod run;
 pub mod scenario;

@@ -1,6 +1,6 @@
 //! One tick of a run, as the log keeps it.
 
-use conik::{ActiveSet, JointVec, Vec3};
+use conik::{ActiveSet, JointVec, Landed, Vec3};
 
 /// One tick: the state at t = k / rate *before* the step, and what was decided there.
 #[derive(Clone, Debug, PartialEq)]
@@ -33,6 +33,12 @@ pub struct Record {
     pub speed_limited: bool,
     /// Whether no mode kept every set, so that the arm stands still.
     pub no_mode: bool,
+    /// What it took to land, with border `land`.
+    pub landed: Landed,
+    /// Pivots of the quadratic programs.
+    pub pivots: usize,
+    /// Modes of which the velocity was computed, by the rules `paper` and `border`.
+    pub modes_evaluated: usize,
     /// Time of the controller's step alone [ns].
     pub step_ns: u64,
     /// Cycles of the arm's clock that went by unanswered before this one.

@@ -175,6 +175,9 @@ fn decide(
         q_measured: feedback.q,
         speed_limited: step.speed_limit.is_some(),
         no_mode: step.no_mode,
+        landed: step.landed,
+        pivots: step.pivots,
+        modes_evaluated: step.modes_evaluated,
         step_ns,
         missed_cycles: feedback.missed_cycles,
     })

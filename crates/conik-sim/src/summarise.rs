@@ -2,12 +2,15 @@
 
 use std::collections::BTreeMap;
 
-use conik::{Deviation, Goal, JointVec, Stack};
+use conik::{Deviation, Goal, JointVec, Monitor, Stack};
 
+use crate::experiment::Experiment;
 use crate::record::Record;
 use crate::run::Ended;
+use crate::scenario::Border;
 use crate::summary::{
-    FORMAT, ModeChange, Properties, Property, Settings, StepTime, Summary, TaskSummary, Tracking,
+    FORMAT, Landing, ModeChange, Outcome, Properties, Property, Settings, StepTime, StepWork,
+    Summary, TaskSummary, Tracking,
 };
 
 /// Takes in the records of a run and, at its end, gives the summary.
@@ -23,6 +26,8 @@ pub struct Summariser {
     deadline_misses: u64,
     speed_limited_ticks: u64,
     no_mode_ticks: u64,
+    landing: Landing,
+    step_work_max: StepWork,
 }
 
 #[derive(Clone, Debug)]
@@ -49,6 +54,8 @@ impl Summariser {
             deadline_misses: 0,
             speed_limited_ticks: 0,
             no_mode_ticks: 0,
+            landing: Landing::default(),
+            step_work_max: StepWork::default(),
         }
     }
 
@@ -73,6 +80,8 @@ impl Summariser {
         self.deadline_misses += record.missed_cycles;
         self.speed_limited_ticks += u64::from(record.speed_limited);
         self.no_mode_ticks += u64::from(record.no_mode);
+        self.landing.add(record);
+        self.step_work_max.raise(record);
         if let Some(measured) = record.q_measured {
             let still = JointVec::zeros(measured.len());
             self.tracking
@@ -90,19 +99,49 @@ impl Summariser {
         self.modes.last()
     }
 
+    /// What can be said of a run before its first tick.
+    pub fn begun(experiment: &Experiment, settings: Settings, version: &str) -> Summary {
+        let stack = experiment.controller.stack();
+        Self::new(stack, experiment.waypoint_count()).summary(
+            experiment,
+            &Monitor::new(stack),
+            Outcome::Running,
+            settings,
+            version,
+        )
+    }
+
     /// The summary of the run that has ended.
     pub fn finish(self, ended: &Ended, settings: Settings, version: &str) -> Summary {
-        let stack = ended.experiment.controller.stack();
-        let period = 1.0 / ended.experiment.controller.settings().rate_hz;
-        let (ended_at_s, final_q) = self.last.unwrap_or((0.0, ended.experiment.q0));
+        self.summary(
+            &ended.experiment,
+            &ended.monitor,
+            ended.outcome.clone(),
+            settings,
+            version,
+        )
+    }
+
+    fn summary(
+        self,
+        experiment: &Experiment,
+        monitor: &Monitor,
+        outcome: Outcome,
+        settings: Settings,
+        version: &str,
+    ) -> Summary {
+        let ticked = self.last.is_some();
+        let lands = settings.scenario.control.border == Border::Land;
+        let (ended_at_s, final_q) = self.last.unwrap_or((0.0, experiment.q0));
+        let seen = monitor.properties(experiment.controller.stack());
         Summary {
             format: FORMAT,
             version: version.to_owned(),
             settings,
-            outcome: ended.outcome.clone(),
+            outcome,
             ended_at_s,
-            tasks: tasks(ended, period),
-            properties: properties(&ended.monitor.properties(stack), &self.task_names),
+            tasks: tasks(experiment, monitor, ticked),
+            properties: properties(&seen, &self.task_names, ticked),
             modes: self.modes,
             waypoints_reached_s: self.reached,
             final_q_rad: final_q.to_vec(),
@@ -111,7 +150,25 @@ impl Summariser {
             tracking: self.tracking.map(TrackingSum::finish),
             speed_limited_ticks: self.speed_limited_ticks,
             no_mode_ticks: self.no_mode_ticks,
+            landing: lands.then_some(self.landing),
+            step_work_max: self.step_work_max,
         }
+    }
+}
+
+impl Landing {
+    fn add(&mut self, record: &Record) {
+        self.corrected_ticks += u64::from(record.landed.corrections > 0);
+        self.halvings += record.landed.halvings as u64;
+        self.stood_still_ticks += u64::from(record.landed.stood_still);
+    }
+}
+
+impl StepWork {
+    fn raise(&mut self, record: &Record) {
+        self.landing_trials = self.landing_trials.max(record.landed.kinematics);
+        self.pivots = self.pivots.max(record.pivots);
+        self.modes = self.modes.max(record.modes_evaluated);
     }
 }
 
@@ -138,19 +195,24 @@ impl TrackingSum {
     }
 }
 
-fn tasks(ended: &Ended, period: f64) -> BTreeMap<String, TaskSummary> {
-    let stack = ended.experiment.controller.stack();
+fn tasks(
+    experiment: &Experiment,
+    monitor: &Monitor,
+    ticked: bool,
+) -> BTreeMap<String, TaskSummary> {
+    let period = 1.0 / experiment.controller.settings().rate_hz;
+    let stack = experiment.controller.stack();
     stack
         .iter()
         .map(|(id, level)| {
-            let history = ended.monitor.history(id);
+            let history = monitor.history(id);
             let is_set = matches!(level.goal(), Goal::Set { .. });
             let summary = TaskSummary {
                 min: history.min.is_finite().then_some(history.min),
                 max: history.max.is_finite().then_some(history.max),
                 worst_violation: is_set.then_some(history.worst_violation),
                 entered_set_s: history.entered_s,
-                final_error: (!is_set).then_some(history.final_error),
+                final_error: (ticked && !is_set).then_some(history.final_error),
                 active_s: is_set.then_some(history.active_ticks as f64 * period),
             };
             (level.name().to_owned(), summary)
@@ -158,9 +220,10 @@ fn tasks(ended: &Ended, period: f64) -> BTreeMap<String, TaskSummary> {
         .collect()
 }
 
-fn properties(properties: &conik::Properties, names: &[String]) -> Properties {
+/// Without a single tick nothing was shown to hold.
+fn properties(properties: &conik::Properties, names: &[String], ticked: bool) -> Properties {
     let property = |deviation: &Deviation| Property {
-        holds: deviation.holds(),
+        holds: ticked && deviation.holds(),
         worst: deviation.worst,
         at_s: deviation.at_s,
         task: deviation.task.map(|task| names[task.index()].clone()),

@@ -42,6 +42,12 @@ pub struct Summary {
     pub speed_limited_ticks: u64,
     /// Ticks in which no mode kept every set, so that the arm stood still.
     pub no_mode_ticks: u64,
+    /// What it took to land inside the sets; `None` with border `freeze`, which does not.
+    #[serde(default)]
+    pub landing: Option<Landing>,
+    /// The most work of one step.
+    #[serde(default)]
+    pub step_work_max: StepWork,
 }
 
 /// The settings in force.
@@ -61,6 +67,8 @@ pub struct Settings {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "kind", rename_all = "snake_case")]
 pub enum Outcome {
+    /// It has not, or nobody was left to say how: what is written at the start of every run.
+    Running,
     /// The whole duration was run.
     Completed,
     /// A person stopped it.
@@ -96,7 +104,7 @@ pub struct TaskSummary {
     pub worst_violation: Option<f64>,
     /// First time inside its set [s]; `None` if never, or for an equality task.
     pub entered_set_s: Option<f64>,
-    /// Norm of the error at the end; `None` for a set-based task.
+    /// Norm of the error at the end; `None` for a set-based task, or without a single tick.
     pub final_error: Option<f64>,
     /// For how long it was active [s]; `None` for an equality task.
     pub active_s: Option<f64>,
@@ -120,7 +128,7 @@ pub struct Properties {
 /// One property: kept or not, and its worst moment.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Property {
-    /// `worst` is at most 1e-6 in the task's unit.
+    /// `worst` is at most 1e-6 in the task's unit, and there was a tick that could show it.
     pub holds: bool,
     /// The largest deviation from the property [task's unit].
     pub worst: f64,
@@ -139,6 +147,30 @@ pub struct StepTime {
     pub p99: f64,
     /// The slowest.
     pub max: f64,
+}
+
+/// What it took, over the whole run, that every sample lies inside the sets entered.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Landing {
+    /// Ticks in which the velocity was corrected, because a set would have been left by what is not
+    /// linear in one period's motion.
+    pub corrected_ticks: u64,
+    /// How often the velocity was halved, because corrections did not do.
+    pub halvings: u64,
+    /// Ticks in which the arm stood still, because halving did not do either.
+    pub stood_still_ticks: u64,
+}
+
+/// The most work of one step, each figure by itself. What bounds them stands at
+/// [`Controller`](conik::Controller).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct StepWork {
+    /// Configurations tried in order to land; 0 with border `freeze`.
+    pub landing_trials: usize,
+    /// Pivots of the quadratic programs: those of rule `cone` and those of border `land`.
+    pub pivots: usize,
+    /// Modes of which the velocity was computed, by the rules `paper` and `border`.
+    pub modes: usize,
 }
 
 /// How closely the arm followed its reference.

@@ -5,7 +5,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use conik_sim::scenario::{
-    Border, Control, GoalConfig, LoadError, MAX_FILE_BYTES, ModeRule, Recursion, Scenario,
+    Border, Choice, Control, GoalConfig, LoadError, MAX_FILE_BYTES, ModeRule, Recursion, Scenario,
     TaskKind, template,
 };
 use proptest::prelude::*;
@@ -93,9 +93,9 @@ fn what_the_file_leaves_out_has_defaults() {
     let expected = Control {
         rate_hz: 125.0,
         duration_s: 60.0,
-        mode_rule: ModeRule::Border,
-        border: Border::Freeze,
-        recursion: Recursion::Chiaverini,
+        mode_rule: ModeRule::Cone,
+        border: Border::Land,
+        recursion: Recursion::SicilianoSlotine,
         exclusive: vec![],
     };
     assert_eq!(control, expected);
@@ -108,6 +108,30 @@ fn what_the_file_leaves_out_has_defaults() {
             ..expected
         }
     );
+}
+
+/// Reads `key = name` for every name of a setting: the value of that name, also in JSON.
+fn assert_names_are_read<T: Choice + std::fmt::Debug + serde::Serialize>(
+    key: &str,
+    value: impl Fn(&Control) -> T,
+) {
+    assert!(T::ALL.len() >= 2, "a choice");
+    let task = "[[task]]\nname = \"j\"\ntype = \"joint\"\njoint = 1\nmin = 0\n";
+    for (expected, _) in T::ALL {
+        let name = expected.name();
+        let text = with_tasks(&format!("[control]\n{key} = {name:?}\n{task}"));
+        let scenario = Scenario::from_toml(&text).expect("a name of the setting");
+        assert_eq!(value(&scenario.control), *expected);
+        assert_eq!(Scenario::from_toml(&scenario.to_toml()), Ok(scenario));
+        assert_eq!(serde_json::json!(expected), serde_json::json!(name));
+    }
+}
+
+#[test]
+fn every_value_of_the_settings_is_read_by_its_name() {
+    assert_names_are_read("mode_rule", |control| control.mode_rule);
+    assert_names_are_read("border", |control| control.border);
+    assert_names_are_read("recursion", |control| control.recursion);
 }
 
 #[test]
@@ -282,7 +306,7 @@ fn any_scenario() -> impl Strategy<Value = Scenario> {
     let task = prop_oneof![4 => scalar, 1 => position];
     let tasks = prop::collection::vec(task, 1..8);
     let title = prop::option::of(any::<String>());
-    (tasks, 50.0..1000.0, 1e-3..1e3, title).prop_map(|(tasks, rate, duration, title)| {
+    (tasks, 50.0..1000.0, 0.02..1e3, title).prop_map(|(tasks, rate, duration, title)| {
         let control = format!("[control]\nrate_hz = {rate:?}\nduration_s = {duration:?}\n");
         let named = |(i, task)| format!("[[task]]\nname = \"a/b-{i}\"\n{task}");
         let tasks: Vec<_> = tasks.iter().enumerate().map(named).collect();

@@ -102,9 +102,9 @@ fn schema_and_reader_refuse_the_same_mistakes() {
         ("rate_hz = 125", "rate_hz = 0"),
         ("rate_hz = 125", "rate_hz = \"fast\""),
         ("rate_hz = 125", "duration_s = 0"),
-        ("rate_hz = 125", "mode_rule = \"cone\""),
-        ("rate_hz = 125", "border = \"land\""),
-        ("rate_hz = 125", "recursion = \"siciliano-slotine\""),
+        ("rate_hz = 125", "mode_rule = \"kone\""),
+        ("rate_hz = 125", "border = \"soft\""),
+        ("rate_hz = 125", "recursion = \"siciliano\""),
         ("exclusive = [[\"a\", \"b\"]]", "exclusive = [[\"a\"]]"),
         (
             "exclusive = [[\"a\", \"b\"]]",

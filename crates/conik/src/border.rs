@@ -9,9 +9,9 @@ use alloc::vec::Vec;
 use crate::active::ActiveSet;
 use crate::cone::Interval;
 use crate::evaluation::Evaluation;
-use crate::settings::Border;
+use crate::settings::{Border, Settings};
 use crate::sides::{Held, Side};
-use crate::stack::Stack;
+use crate::stack::{BoundRates, Goal, Stack};
 use crate::task_id::TaskId;
 
 /// With border `Land`, sets are held this far inside their bounds [task's unit], so that a tangential
@@ -21,29 +21,41 @@ pub(crate) const MARGIN: f64 = 1e-7;
 #[derive(Debug)]
 pub(crate) struct Borders {
     border: Border,
+    period: f64,
     holds: Vec<Hold>,
+    /// Whether standing still keeps every set, and none is to recover.
+    at_ease: bool,
 }
 
 /// What one task is held to.
 #[derive(Clone, Copy, Debug)]
 struct Hold {
     entered: bool,
-    /// The bounds in force. Empty (∞, −∞) for an equality task.
+    /// How far outside the lower and the upper bound it may be: nothing once it has entered, its best
+    /// so far until then.
+    leeway: [f64; 2],
+    /// The bounds in force. All values for an equality task.
     interval: Interval,
+    /// How fast they move.
+    rates: BoundRates,
 }
 
 impl Borders {
-    pub(crate) fn new(border: Border, stack: &Stack) -> Self {
+    pub(crate) fn new(settings: &Settings, stack: &Stack) -> Self {
         let unbounded = Interval {
             min: f64::NEG_INFINITY,
             max: f64::INFINITY,
         };
         Self {
-            border,
+            at_ease: true,
+            border: settings.border,
+            period: 1.0 / settings.rate_hz,
             holds: alloc::vec![
                 Hold {
                     entered: false,
+                    leeway: [f64::INFINITY; 2],
                     interval: unbounded,
+                    rates: BoundRates::default(),
                 };
                 stack.len()
             ],
@@ -52,25 +64,45 @@ impl Borders {
 
     /// Takes in the values at the configuration in which the robot now is.
     pub(crate) fn observe(&mut self, stack: &Stack, evaluation: &Evaluation) {
+        self.at_ease = true;
         for (id, level) in stack.iter() {
-            let Some(&set) = level.interval() else {
+            let &Goal::Set {
+                interval: set,
+                rates,
+                recovery,
+                ..
+            } = level.goal()
+            else {
                 continue;
             };
             let sigma = evaluation.scalar(id);
             let hold = &mut self.holds[id.index()];
             hold.entered |= set.contains(sigma);
-            if self.border == Border::Freeze || hold.entered {
-                hold.interval = set;
-            } else {
-                // Not yet inside: the side that is exceeded is held at its best value so far. The
-                // slack is given once, and never grows.
-                let best = hold.interval;
-                hold.interval = Interval {
-                    min: set.min.min((sigma - MARGIN).max(best.min)),
-                    max: set.max.max((sigma + MARGIN).min(best.max)),
-                };
+            hold.rates = rates;
+            hold.interval = set;
+            if self.border == Border::Land && !hold.entered {
+                hold.leeway = [
+                    least_leeway(hold.leeway[0], set.min - sigma),
+                    least_leeway(hold.leeway[1], sigma - set.max),
+                ];
+                hold.interval.min -= hold.leeway[0];
+                hold.interval.max += hold.leeway[1];
             }
+            self.at_ease &= rates == BoundRates::default()
+                && evaluation.drift(id) == 0.0
+                && (recovery.is_none() || set.contains(sigma))
+                && (self.border == Border::Freeze || hold.interval.contains(sigma));
         }
+    }
+
+    /// Whether standing still keeps every set, and none is to recover.
+    pub(crate) fn are_at_ease(&self) -> bool {
+        self.at_ease
+    }
+
+    /// T [s].
+    pub(crate) fn period(&self) -> f64 {
+        self.period
     }
 
     /// The bounds in force for a set-based task.
@@ -79,40 +111,68 @@ impl Borders {
         &self.holds[task.index()].interval
     }
 
+    /// The bounds in force at the end of the period.
+    #[inline]
+    pub(crate) fn next_interval(&self, task: TaskId) -> Interval {
+        let Hold {
+            interval, rates, ..
+        } = self.holds[task.index()];
+        Interval {
+            min: interval.min + self.period * rates.min,
+            max: interval.max + self.period * rates.max,
+        }
+    }
+
+    /// How fast the bound of a side moves [unit/s].
+    #[inline]
+    pub(crate) fn bound_rate(&self, side: Side) -> f64 {
+        let BoundRates { min, max } = self.holds[side.task.index()].rates;
+        if side.is_upper { max } else { min }
+    }
+
     /// Whether a value is on the border or outside. A set that is held a margin inside counts as on
     /// its border there.
     #[inline]
     pub(crate) fn is_at_border(&self, task: TaskId, sigma: f64) -> bool {
-        let (set, band) = (self.interval(task), self.band());
-        sigma <= set.min + band || sigma >= set.max - band
+        self.with_band(task).is_at_border(sigma)
     }
 
-    /// `in_T_C` for the bounds in force.
+    /// The sides at whose border, or outside of which, a value is.
+    pub(crate) fn sides_at(&self, task: TaskId, sigma: f64) -> impl Iterator<Item = Side> {
+        let set = self.with_band(task);
+        [(false, sigma <= set.min), (true, sigma >= set.max)]
+            .into_iter()
+            .filter(|(_, is_at)| *is_at)
+            .map(move |(is_upper, _)| Side { task, is_upper })
+    }
+
+    /// `in_T_C` for the bounds in force, which may themselves move.
     #[inline]
     pub(crate) fn tangent_cone_contains(&self, task: TaskId, sigma_dot: f64, sigma: f64) -> bool {
-        let (set, band) = (self.interval(task), self.band());
-        let widened = Interval {
-            min: set.min + band,
-            max: set.max - band,
-        };
-        widened.tangent_cone_contains(sigma_dot, sigma)
+        let (set, rates) = (self.with_band(task), self.holds[task.index()].rates);
+        let leaves_below = sigma <= set.min && sigma_dot < rates.min;
+        let leaves_above = sigma >= set.max && sigma_dot > rates.max;
+        !(leaves_below || leaves_above)
     }
 
     /// Sides of the active sets at whose border they now are.
     pub(crate) fn held(&self, stack: &Stack, active: &ActiveSet, evaluation: &Evaluation) -> Held {
         let mut held = Held::default();
         for task in active.iter().filter(|&task| stack.is_high_priority(task)) {
-            let (set, sigma) = (self.interval(task), evaluation.scalar(task));
-            for (is_upper, is_at) in [
-                (false, sigma <= set.min + self.band()),
-                (true, sigma >= set.max - self.band()),
-            ] {
-                if is_at {
-                    held.insert(Side { task, is_upper });
-                }
+            for side in self.sides_at(task, evaluation.scalar(task)) {
+                held.insert(side);
             }
         }
         held
+    }
+
+    #[inline]
+    fn with_band(&self, task: TaskId) -> Interval {
+        let (set, band) = (self.interval(task), self.band());
+        Interval {
+            min: set.min + band,
+            max: set.max - band,
+        }
     }
 
     #[inline]
@@ -121,5 +181,35 @@ impl Borders {
             Border::Freeze => 0.0,
             Border::Land => 2.0 * MARGIN,
         }
+    }
+}
+
+/// A bound that jumped moved by more than this; what is less is rounding [task's unit].
+const JUMP: f64 = 1e-3 * MARGIN;
+
+/// The leeway of a side that is `outside` by so much now. The slack of a margin is given once and never
+/// grows; only a bound that jumped away from the task gives it a new start.
+fn least_leeway(best: f64, outside: f64) -> f64 {
+    let now = (outside + MARGIN).max(0.0);
+    if outside > best + JUMP {
+        now
+    } else {
+        best.min(now)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn leeway_grows_for_a_jump_and_not_for_rounding() {
+        let best = least_leeway(f64::INFINITY, 0.3);
+        assert_eq!(best, 0.3 + MARGIN);
+        assert_eq!(least_leeway(best, 0.2), 0.2 + MARGIN);
+        assert_eq!(least_leeway(best, best), best, "at the bound in force");
+        assert_eq!(least_leeway(best, best + 1e-16), best);
+        assert_eq!(least_leeway(best, 0.4), 0.4 + MARGIN);
+        assert_eq!(least_leeway(best, -1.0), 0.0);
     }
 }

@@ -40,11 +40,17 @@ impl Interval {
         (self.min - sigma).max(sigma - self.max).max(0.0)
     }
 
+    /// Whether the least allowed value is the bound that was crossed or, from inside, the nearest.
+    #[inline]
+    pub fn is_nearer_to_min(&self, sigma: f64) -> bool {
+        sigma - self.min <= self.max - sigma
+    }
+
     /// The bound that was crossed or, from inside, the nearest one: σ_des of an active low-priority
     /// set, Eq. (28).
     #[inline]
     pub fn nearest_bound(&self, sigma: f64) -> f64 {
-        if sigma - self.min <= self.max - sigma {
+        if self.is_nearer_to_min(sigma) {
             self.min
         } else {
             self.max

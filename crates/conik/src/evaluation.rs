@@ -12,19 +12,27 @@ use crate::task_vectors::TaskVectors;
 #[derive(Debug)]
 pub(crate) struct Evaluation {
     kinematics: Kinematics,
+    period: f64,
     values: TaskVectors,
     errors: TaskVectors,
+    /// ∂σ/∂t of the tasks whose own parameters move; zeros for the others.
+    drifts: TaskVectors,
+    /// Tasks whose drift is not zero.
+    is_drifting: Vec<bool>,
     /// The Jacobian of each task, row after row.
     jacobians: Vec<Vec<f64>>,
     jacobian_known: Vec<bool>,
 }
 
 impl Evaluation {
-    pub(crate) fn new(robot: &Robot, stack: &Stack) -> Self {
+    pub(crate) fn new(robot: &Robot, stack: &Stack, period: f64) -> Self {
         Self {
             kinematics: Kinematics::new(robot),
+            period,
             values: TaskVectors::zeros(stack),
             errors: TaskVectors::zeros(stack),
+            drifts: TaskVectors::zeros(stack),
+            is_drifting: alloc::vec![false; stack.len()],
             jacobians: stack
                 .iter()
                 .map(|(_, level)| alloc::vec![0.0; level.task().dimension() * robot.dof()])
@@ -49,7 +57,8 @@ impl Evaluation {
         **self.kinematics.q() == *q
     }
 
-    /// Values of all tasks at `q`, and errors of the equality tasks. Jacobians wait to be asked for.
+    /// Values of all tasks at `q` now, errors of the equality tasks, and drifts. Jacobians wait to be
+    /// asked for.
     pub(crate) fn update(&mut self, stack: &Stack, q: &[f64]) {
         self.kinematics.update(q);
         self.jacobian_known.fill(false);
@@ -59,12 +68,44 @@ impl Evaluation {
             if let Goal::Equality { desired, .. } = level.goal() {
                 level.task().error(desired, value, self.errors.of_mut(id));
             }
+            self.update_drift(stack, id);
         }
     }
 
-    /// The first task whose value is not a finite number.
+    /// The mean of ∂σ/∂t over the period: with it, the value at its end is met without lag.
+    fn update_drift(&mut self, stack: &Stack, id: TaskId) {
+        let task = stack[id].task();
+        if task.is_moving() {
+            let drift = self.drifts.of_mut(id);
+            task.value_ahead(&self.kinematics, self.period, drift);
+            for (drift, now) in drift.iter_mut().zip(self.values.of(id)) {
+                *drift = (*drift - now) / self.period;
+            }
+            self.is_drifting[id.index()] = true;
+        } else if core::mem::take(&mut self.is_drifting[id.index()]) {
+            self.drifts.of_mut(id).fill(0.0);
+        }
+    }
+
+    /// Values of the sets at `q` at the end of the period.
+    pub(crate) fn look_ahead(&mut self, stack: &Stack, q: &[f64]) {
+        self.kinematics.update(q);
+        self.jacobian_known.fill(false);
+        for (id, level) in stack.iter().filter(|(_, level)| level.interval().is_some()) {
+            let (task, value) = (level.task(), self.values.of_mut(id));
+            if task.is_moving() {
+                task.value_ahead(&self.kinematics, self.period, value);
+            } else {
+                task.value(&self.kinematics, value);
+            }
+        }
+    }
+
+    /// The first task whose value, or drift, is not a finite number.
     pub(crate) fn not_finite(&self) -> Option<TaskId> {
-        self.values.not_finite()
+        self.values
+            .not_finite()
+            .or_else(|| self.drifts.not_finite())
     }
 
     /// σ of every task.
@@ -77,6 +118,11 @@ impl Evaluation {
         &self.errors
     }
 
+    /// ∂σ/∂t of every task [unit/s].
+    pub(crate) fn drifts(&self) -> &TaskVectors {
+        &self.drifts
+    }
+
     /// σ of a scalar task.
     #[inline]
     pub(crate) fn scalar(&self, task: TaskId) -> f64 {
@@ -87,6 +133,12 @@ impl Evaluation {
     pub(crate) fn known_jacobian(&self, task: TaskId) -> &[f64] {
         debug_assert!(self.jacobian_known[task.index()]);
         &self.jacobians[task.index()]
+    }
+
+    /// ∂σ/∂t of a scalar task [unit/s].
+    #[inline]
+    pub(crate) fn drift(&self, task: TaskId) -> f64 {
+        self.drifts.of(task)[0]
     }
 
     /// J of a task, row after row.

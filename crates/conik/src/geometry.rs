@@ -5,7 +5,7 @@
 
 use core::ops::{Add, AddAssign, Mul, Neg, Sub};
 
-use crate::real::sqrt;
+use crate::real::{sin_cos, sqrt};
 
 /// A point [m] or a direction in three dimensions.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -49,6 +49,25 @@ impl Vec3 {
     #[inline]
     pub fn norm(self) -> f64 {
         sqrt(self.dot(self))
+    }
+
+    /// The direction, with length 1. NaN for no direction.
+    #[inline]
+    #[must_use]
+    pub fn normalized(self) -> Self {
+        self * (1.0 / self.norm())
+    }
+
+    /// The direction after a turn about `rotation` by its length [rad], right-handed (Rodrigues).
+    #[must_use]
+    pub fn turned_by(self, rotation: Self) -> Self {
+        let angle = rotation.norm();
+        if angle == 0.0 {
+            return self;
+        }
+        let axis = rotation * (1.0 / angle);
+        let (sin, cos) = sin_cos(angle);
+        self * cos + axis.cross(self) * sin + axis * (axis.dot(self) * (1.0 - cos))
     }
 
     /// The coordinates as an array.

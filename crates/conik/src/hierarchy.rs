@@ -10,7 +10,7 @@ use alloc::vec::Vec;
 
 use crate::active::ActiveSet;
 use crate::evaluation::Evaluation;
-use crate::linalg::{Damped, MinimumNorm, RowSpace, add_scaled, dot};
+use crate::linalg::{Damped, MinimumNorm, RowSpace, add_scaled, copy, dot};
 use crate::real::sqrt;
 use crate::settings::{Recursion, Settings};
 use crate::stack::{Goal, Stack};
@@ -21,6 +21,8 @@ pub(crate) struct Hierarchy {
     /// Rows that the present candidate freezes, then, while a velocity is put together, the rows of
     /// the levels above the present one.
     above: RowSpace,
+    /// J_S⁺ r_S of the frozen rows in the basis of `above`.
+    frozen_rates: Vec<f64>,
     minimum_norm: MinimumNorm,
     damped: Damped,
     recursion: Recursion,
@@ -54,6 +56,7 @@ impl Hierarchy {
             .collect();
         Self {
             above: RowSpace::new(dof, max_rows),
+            frozen_rates: alloc::vec![0.0; dof],
             minimum_norm: MinimumNorm::new(dof, max_rows),
             damped: Damped::new(dof, max_rows),
             recursion: settings.recursion,
@@ -74,15 +77,27 @@ impl Hierarchy {
         self.asked_known.fill(false);
     }
 
-    /// Freezes a high-priority set. `false` if its row depends on those frozen already: then
-    /// freezing it changes nothing.
+    /// Freezes a high-priority set: J q̇ = `rate`, which is zero unless its bound, or the task by
+    /// itself, moves. `false` if its row depends on those frozen already: then freezing it changes
+    /// nothing.
     pub(crate) fn freeze(
         &mut self,
         stack: &Stack,
         evaluation: &mut Evaluation,
         task: TaskId,
+        rate: f64,
     ) -> bool {
-        self.above.push(evaluation.jacobian(stack, task))
+        let rank = self.above.rank();
+        let row = evaluation.jacobian(stack, task);
+        if !self.above.push(row) {
+            return false;
+        }
+        // The new direction q is orthogonal to the rows before it, so those keep their rates.
+        let (before, added) = self.frozen_rates.split_at_mut(rank);
+        let direction = |k: usize| &self.above.basis_from(k)[..self.dof];
+        let known: f64 = (0..rank).map(|k| before[k] * dot(row, direction(k))).sum();
+        added[0] = (rate - known) / dot(row, direction(rank));
+        true
     }
 
     /// Number of independent frozen rows.
@@ -106,6 +121,11 @@ impl Hierarchy {
     ) {
         let frozen = self.above.rank();
         velocity.fill(0.0);
+        for (k, rate) in self.frozen_rates[..frozen].iter().enumerate() {
+            if *rate != 0.0 {
+                add_scaled(velocity, *rate, &self.above.basis_from(k)[..self.dof]);
+            }
+        }
         let mut rows_missing: Option<TaskId> = None;
         for place in 0..self.lower.len() {
             let task = self.lower[place];
@@ -140,13 +160,9 @@ impl Hierarchy {
                 .solve(evaluation.jacobian(stack, task), rate, asked);
             self.asked_known[place] = true;
         }
-        if self.above.rank() == 0 {
-            add_scaled(velocity, 1.0, asked);
-        } else {
-            self.projected.copy_from_slice(asked);
-            self.above.project_out(&mut self.projected);
-            add_scaled(velocity, 1.0, &self.projected);
-        }
+        copy(&mut self.projected, asked);
+        self.above.project_out(&mut self.projected);
+        add_scaled(velocity, 1.0, &self.projected);
     }
 
     /// q̇ += (J N)⁺ (σ̇_ref − J q̇)
@@ -195,11 +211,24 @@ fn rate_asked<'a>(
                 *rate = feed_forward + gain * error;
             }
         }
-        Goal::Set { interval, gain } => {
+        Goal::Set {
+            interval,
+            rates,
+            gain,
+            ..
+        } => {
             // Eq. (28): towards the bound that was crossed. `Stack` insists on the gain.
             let sigma = evaluation.scalar(task);
-            rate[0] = gain.unwrap_or(0.0) * (interval.nearest_bound(sigma) - sigma);
+            let (bound, moves) = if interval.is_nearer_to_min(sigma) {
+                (interval.min, rates.min)
+            } else {
+                (interval.max, rates.max)
+            };
+            rate[0] = moves + gain.unwrap_or(0.0) * (bound - sigma);
         }
+    }
+    for (rate, drift) in rate.iter_mut().zip(evaluation.drifts().of(task)) {
+        *rate -= drift;
     }
     rate
 }

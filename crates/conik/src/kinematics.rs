@@ -6,6 +6,7 @@ use crate::geometry::{Pose, Vec3};
 use crate::joints::JointVec;
 use crate::robot::dh::Link;
 use crate::robot::{JointKind, Robot};
+use crate::trigonometry::sin_cos;
 
 /// A frame of the robot.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -27,16 +28,34 @@ pub struct Kinematics {
     /// Pose of the base, then of the frame after each joint. Joint i acts about the z axis of the
     /// frame before it.
     base_from_frame: Vec<Pose>,
+    twists: Vec<TwoTwists>,
     q: JointVec,
+    /// θ of each joint [rad], its sine and its cosine.
+    angles: JointVec,
+    sines: JointVec,
+    cosines: JointVec,
+}
+
+/// Of a pair of neighbouring joints, x, y and z of ω and of v: at unit speed, each moves a point p of a
+/// later link at ω × p + v. Side by side, so that both are worked on at once.
+#[derive(Clone, Copy, Debug, Default)]
+struct TwoTwists {
+    turn: [[f64; 2]; 3],
+    slide: [[f64; 2]; 3],
 }
 
 impl Kinematics {
     /// The robot at q = 0.
     pub fn new(robot: &Robot) -> Self {
+        let zeros = JointVec::zeros(robot.dof());
         let mut kinematics = Self {
             links: robot.joints().iter().map(Link::new).collect(),
             base_from_frame: alloc::vec![Pose::IDENTITY; robot.dof() + 1],
-            q: JointVec::zeros(robot.dof()),
+            twists: alloc::vec![TwoTwists::default(); robot.dof().div_ceil(2)],
+            q: zeros,
+            angles: zeros,
+            sines: zeros,
+            cosines: zeros,
         };
         kinematics.place_frames();
         kinematics
@@ -56,11 +75,20 @@ impl Kinematics {
     }
 
     fn place_frames(&mut self) {
+        for ((angle, link), position) in self.angles.iter_mut().zip(&self.links).zip(self.q.iter())
+        {
+            *angle = link.angle(*position);
+        }
+        sin_cos(&self.angles, &mut self.sines, &mut self.cosines);
         let mut pose = Pose::IDENTITY;
-        let frames = &mut self.base_from_frame[1..];
-        for ((link, &position), frame) in self.links.iter().zip(self.q.iter()).zip(frames) {
-            pose = link.advance(&pose, position);
-            *frame = pose;
+        for (i, link) in self.links.iter().enumerate() {
+            let (turn, slide) = match link.kind() {
+                JointKind::Revolute => (pose.z_axis, pose.origin.cross(pose.z_axis)),
+                JointKind::Prismatic => (Vec3::ZERO, pose.z_axis),
+            };
+            self.twists[i / 2].set(i % 2, turn, slide);
+            pose = link.advance(&pose, self.q[i], (self.sines[i], self.cosines[i]));
+            self.base_from_frame[i + 1] = pose;
         }
     }
 
@@ -100,17 +128,14 @@ impl Kinematics {
     pub fn point_rows(&self, frame: Frame, rows: [&mut [f64]; 3]) {
         let point = self.base_from(frame).origin;
         let [x, y, z] = rows;
-        self.fill_row(frame, z, |kind, joint| match kind {
-            JointKind::Revolute => joint.z_axis.cross(point - joint.origin).z,
-            JointKind::Prismatic => joint.z_axis.z,
+        self.fill_row(frame, x, |TwoTwists { turn, slide }, i| {
+            turn[1][i] * point.z - turn[2][i] * point.y + slide[0][i]
         });
-        self.fill_row(frame, y, |kind, joint| match kind {
-            JointKind::Revolute => joint.z_axis.cross(point - joint.origin).y,
-            JointKind::Prismatic => joint.z_axis.y,
+        self.fill_row(frame, y, |TwoTwists { turn, slide }, i| {
+            turn[2][i] * point.x - turn[0][i] * point.z + slide[1][i]
         });
-        self.fill_row(frame, x, |kind, joint| match kind {
-            JointKind::Revolute => joint.z_axis.cross(point - joint.origin).x,
-            JointKind::Prismatic => joint.z_axis.x,
+        self.fill_row(frame, z, |TwoTwists { turn, slide }, i| {
+            turn[0][i] * point.y - turn[1][i] * point.x + slide[2][i]
         });
     }
 
@@ -118,11 +143,13 @@ impl Kinematics {
     /// origin along `direction`.
     #[inline]
     pub fn point_row(&self, frame: Frame, direction: Vec3, row: &mut [f64]) {
-        let point = self.base_from(frame).origin;
-        self.fill_row(frame, row, |kind, joint| match kind {
-            // direction · (z × r) = z · (r × direction)
-            JointKind::Revolute => joint.z_axis.dot((point - joint.origin).cross(direction)),
-            JointKind::Prismatic => direction.dot(joint.z_axis),
+        // direction · (ω × p + v) = ω · (p × direction) + v · direction
+        let moment = self.base_from(frame).origin.cross(direction);
+        self.fill_row(frame, row, |TwoTwists { turn, slide }, i| {
+            let by_turning = turn[0][i] * moment.x + turn[1][i] * moment.y + turn[2][i] * moment.z;
+            let by_sliding =
+                slide[0][i] * direction.x + slide[1][i] * direction.y + slide[2][i] * direction.z;
+            by_turning + by_sliding
         });
     }
 
@@ -131,9 +158,8 @@ impl Kinematics {
     #[inline]
     pub fn axis_row(&self, frame: Frame, direction: Vec3, row: &mut [f64]) {
         let moment = self.base_from(frame).z_axis.cross(direction);
-        self.fill_row(frame, row, |kind, joint| match kind {
-            JointKind::Revolute => joint.z_axis.dot(moment),
-            JointKind::Prismatic => 0.0,
+        self.fill_row(frame, row, |TwoTwists { turn, .. }, i| {
+            turn[0][i] * moment.x + turn[1][i] * moment.y + turn[2][i] * moment.z
         });
     }
 
@@ -176,13 +202,47 @@ impl Kinematics {
         }
     }
 
-    /// Fills `row` joint by joint; joints after `frame` do not move it.
+    /// Fills `row` two joints at a time; joints after `frame` do not move it.
     #[inline]
-    fn fill_row(&self, frame: Frame, row: &mut [f64], entry: impl Fn(JointKind, &Pose) -> f64) {
-        let (moving, still) = row.split_at_mut(self.joints_before(frame));
-        for ((link, joint), value) in self.links.iter().zip(&self.base_from_frame).zip(moving) {
-            *value = entry(link.kind(), joint);
+    fn fill_row(&self, frame: Frame, row: &mut [f64], entry: impl Fn(&TwoTwists, usize) -> f64) {
+        let (pairs, last) = row.as_chunks_mut::<2>();
+        if let (Ok(pairs), Some(twists)) = (
+            <&mut [_; 3]>::try_from(&mut *pairs),
+            self.twists.first_chunk(),
+        ) {
+            // Six joints are the common case, and a loop of known length the fast one.
+            fill_pairs::<3>(pairs, twists, entry);
+        } else {
+            for (values, twists) in pairs.iter_mut().zip(&self.twists) {
+                *values = [entry(twists, 0), entry(twists, 1)];
+            }
+            if let ([value], Some(twists)) = (last, self.twists.last()) {
+                *value = entry(twists, 0);
+            }
         }
-        still.fill(0.0);
+        for still in &mut row[self.joints_before(frame)..] {
+            *still = 0.0;
+        }
+    }
+}
+
+#[inline]
+fn fill_pairs<const N: usize>(
+    pairs: &mut [[f64; 2]; N],
+    twists: &[TwoTwists; N],
+    entry: impl Fn(&TwoTwists, usize) -> f64,
+) {
+    for (values, twists) in pairs.iter_mut().zip(twists) {
+        *values = [entry(twists, 0), entry(twists, 1)];
+    }
+}
+
+impl TwoTwists {
+    #[inline]
+    fn set(&mut self, which: usize, turn: Vec3, slide: Vec3) {
+        for axis in 0..3 {
+            self.turn[axis][which] = turn.to_array()[axis];
+            self.slide[axis][which] = slide.to_array()[axis];
+        }
     }
 }

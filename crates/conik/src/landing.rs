@@ -2,8 +2,8 @@
 //!
 //! Whatever velocity the rule proposes, the values at q + T q̇ are computed with the true kinematics
 //! before it is committed. What is found outside is corrected: the least change of q̇ that, by the
-//! rows at q, repairs the values found. If two corrections do not do, half the velocity is tried;
-//! after two halvings the arm stands still for this period.
+//! rows at q, repairs the values found. If two corrections do not do, the way from the anchor to the
+//! velocity is halved; after two halvings the arm stands still for this period.
 //!
 //! **Every sample is inside.** By induction over ticks, for sets and bounds that do not move. Let q be
 //! inside every bound in force; for sets entered, those are the sets. (1) Each way out of
@@ -12,7 +12,12 @@
 //! them inside too. (3) Bounds in force only ever tighten, towards the set, and never past the
 //! present value ([`Borders`](crate::border::Borders)). Hence the next q is inside, exactly: no
 //! tolerance, any rate, any rule, any recursion, any number of sets. Nothing is said about the time
-//! between samples.
+//! between samples. `docs/method.md` goes through the steps one by one.
+//!
+//! **Where something moves by itself**, values and bounds are those of the end of the period, and
+//! standing still may be outside too. Then the trial of the least violation is committed, standing
+//! still among them, and [`Landed::outside`] says by how much: the next sample is inside, or this
+//! tick has said that it is not.
 //!
 //! At most 9 kinematics a tick: three trials of one and two corrections each.
 
@@ -21,9 +26,11 @@ use alloc::vec::Vec;
 use crate::border::{Borders, MARGIN};
 use crate::evaluation::Evaluation;
 use crate::joints::JointVec;
-use crate::linalg::{Constraints, DualActiveSet, Solution, add_scaled};
-use crate::sides::{Held, Side, Sides, distance_inside};
+use crate::limits::Limits;
+use crate::linalg::{Constraints, DualActiveSet, Solution, add_scaled, dot};
+use crate::sides::{Held, Side, Sides, landing_rate};
 use crate::stack::Stack;
+use crate::task_id::TaskId;
 
 /// Corrections of one trial.
 const CORRECTIONS: usize = 2;
@@ -36,12 +43,12 @@ const HALVINGS: usize = 2;
 /// takes more kinematics than another.
 const CAUTION: f64 = 0.125;
 
-/// Shares of the margin that a correction aims at. Two bounds may be closer than two margins: those
-/// of sets that were never entered and contradict each other.
-const MARGIN_SHARES: [f64; 3] = [1.0, 0.5, 0.0625];
+/// Shares of the margin that a correction is content with where it cannot have all of it. Two bounds may
+/// be closer than two margins: those of sets that were never entered and contradict each other.
+const MARGIN_SHARES: [f64; 2] = [0.5, 0.0625];
 
 /// What it took to land.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Landed {
     /// Configurations of which the kinematics were computed.
     pub kinematics: usize,
@@ -51,15 +58,32 @@ pub struct Landed {
     pub halvings: usize,
     /// Whether no velocity was found that lands, so that the arm stands still for this period.
     pub stood_still: bool,
+    /// The set that will be furthest outside at the end of this period, because it, its bound or
+    /// another one moves and no velocity was found that keeps them all. `None`: all will be inside, if
+    /// what moves goes on as was said.
+    pub outside: Option<Outside>,
+}
+
+/// A set that will be outside its bound in force at the end of the period.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Outside {
+    /// The set-based task.
+    pub task: TaskId,
+    /// By how much [task's unit].
+    pub by: f64,
 }
 
 #[derive(Debug)]
 pub(crate) struct Landing {
     solver: DualActiveSet,
     sides: Sides,
+    /// The rows of the sides, then those of the joints' ranges.
+    rows: Vec<f64>,
     bounds: Vec<f64>,
     equalities: Vec<usize>,
     change: Vec<f64>,
+    /// The trial of the least violation so far.
+    best: Option<Best>,
     /// Share of the velocity that the next tick tries first.
     caution: f64,
     period: f64,
@@ -70,11 +94,24 @@ pub(crate) struct Approach<'a> {
     pub(crate) stack: &'a Stack,
     /// The robot at q, with its rows.
     pub(crate) here: &'a mut Evaluation,
-    /// The robot at the trial; in the end at the point that was committed.
+    /// The robot at the trial.
     pub(crate) there: &'a mut Evaluation,
     pub(crate) borders: &'a Borders,
-    pub(crate) speed_limits: &'a [f64],
+    pub(crate) limits: &'a Limits,
+    /// The last velocity [rad/s or m/s].
+    pub(crate) before: &'a [f64],
+    /// A velocity that keeps every set to first order; rest while nothing moves.
+    pub(crate) anchor: &'a [f64],
+    /// Sides to be held at their margin.
+    pub(crate) held: &'a Held,
     pub(crate) pivots: &'a mut usize,
+}
+
+/// A trial that was outside, and how far.
+#[derive(Clone, Copy, Debug)]
+struct Best {
+    outside: Outside,
+    qd: JointVec,
 }
 
 impl Landing {
@@ -82,65 +119,99 @@ impl Landing {
         Self {
             solver: DualActiveSet::new(stack.dof()),
             sides: Sides::new(stack),
-            bounds: Vec::with_capacity(2 * stack.len()),
+            rows: Vec::with_capacity(2 * (stack.len() + stack.dof()) * stack.dof()),
+            bounds: Vec::with_capacity(2 * (stack.len() + stack.dof())),
             equalities: Vec::with_capacity(2 * stack.len()),
             change: alloc::vec![0.0; stack.dof()],
+            best: None,
             caution: 1.0,
             period,
         }
     }
 
-    /// Turns the proposed velocity `qd` into one that lands inside every bound in force. `held` are the
-    /// sides to be held at their margin; `is_scaled` says that speed limits have already cut `qd`
-    /// short of them.
+    /// Turns the proposed velocity `qd` into one that lands inside every bound in force, and `target`
+    /// into q + T q̇. `is_shortened` says that limits of the joints have already cut `qd` short of the
+    /// sides to be held.
     pub(crate) fn land(
         &mut self,
         approach: &mut Approach<'_>,
         q: &[f64],
-        held: &Held,
-        mut is_scaled: bool,
+        mut is_shortened: bool,
         qd: &mut JointVec,
         target: &mut JointVec,
     ) -> Landed {
         let mut landed = Landed::default();
+        self.best = None;
         self.sides.clear();
         let mut corrections = 0;
         if self.caution < 1.0 {
-            is_scaled = true;
-            for speed in qd.iter_mut() {
-                *speed *= self.caution;
-            }
+            is_shortened = true;
+            shorten(qd, approach.anchor, self.caution);
         }
         loop {
-            for ((target, q), qd) in target.iter_mut().zip(q).zip(qd.iter()) {
-                *target = q + self.period * qd;
-            }
+            self.aim(q, qd, target);
             landed.kinematics += 1;
-            approach.there.update(approach.stack, target);
+            approach.there.look_ahead(approach.stack, target);
             let is_last = corrections == CORRECTIONS;
-            if is_inside(approach) && (is_scaled || is_last || holds_margins(approach, held)) {
-                self.caution = (2.0 * self.caution).min(1.0);
-                return landed;
+            match worst(approach, |task| approach.there.scalar(task)) {
+                None if is_shortened || is_last || approach.holds_margins() => {
+                    self.caution = (2.0 * self.caution).min(1.0);
+                    return landed;
+                }
+                None => {}
+                Some(outside) => self.remember(outside, qd),
             }
-            if !is_last && self.correct(approach, held, is_scaled, qd) {
+            if !is_last && self.correct(approach, is_shortened, qd) {
                 corrections += 1;
                 landed.corrections += 1;
-                is_scaled |=
-                    crate::controller::scale_to_limits(qd, approach.speed_limits).is_some();
+                is_shortened |= approach
+                    .limits
+                    .shorten_to_speed(qd, approach.anchor)
+                    .is_some();
                 continue;
             }
             if landed.halvings == HALVINGS {
-                landed.stood_still = true;
-                self.caution = (self.caution * CAUTION).max(f64::MIN_POSITIVE);
-                qd.fill(0.0);
-                target.copy_from_slice(q);
+                self.give_in(approach, qd, &mut landed);
+                if landed.stood_still {
+                    self.caution = (self.caution * CAUTION).max(f64::MIN_POSITIVE);
+                }
+                self.aim(q, qd, target);
                 return landed;
             }
             landed.halvings += 1;
             corrections = 0;
-            is_scaled = true;
-            for speed in qd.iter_mut() {
-                *speed *= 0.5;
+            is_shortened = true;
+            shorten(qd, approach.anchor, 0.5);
+        }
+    }
+
+    fn aim(&self, q: &[f64], qd: &[f64], target: &mut [f64]) {
+        for ((target, q), qd) in target.iter_mut().zip(q).zip(qd) {
+            *target = q + self.period * qd;
+        }
+    }
+
+    fn remember(&mut self, outside: Outside, qd: &JointVec) {
+        let is_better = |best: &Best| outside.by < best.outside.by;
+        if self.best.as_ref().is_none_or(is_better) {
+            self.best = Some(Best { outside, qd: *qd });
+        }
+    }
+
+    /// No trial was inside: the arm stands still, unless that is worse than the best of them.
+    fn give_in(&self, approach: &mut Approach<'_>, qd: &mut JointVec, landed: &mut Landed) {
+        let standing = worst(approach, |task| {
+            approach.here.scalar(task) + self.period * approach.here.drift(task)
+        });
+        match (standing, &self.best) {
+            (Some(standing), Some(best)) if best.outside.by < standing.by => {
+                *qd = best.qd;
+                landed.outside = Some(best.outside);
+            }
+            _ => {
+                landed.stood_still = true;
+                landed.outside = standing;
+                qd.fill(0.0);
             }
         }
     }
@@ -149,44 +220,74 @@ impl Landing {
     fn correct(
         &mut self,
         approach: &mut Approach<'_>,
-        held: &Held,
-        is_scaled: bool,
+        is_shortened: bool,
         qd: &mut JointVec,
     ) -> bool {
         self.gather(approach);
+        self.rows.clear();
+        self.rows.extend_from_slice(self.sides.rows());
+        self.bounds.clear();
         self.equalities.clear();
-        if !is_scaled {
-            let is_held = |(i, (side, _)): (usize, (Side, _))| held.contains(side).then_some(i);
-            self.equalities
-                .extend(self.sides.iter().enumerate().filter_map(is_held));
-        }
-        // Held sides that cannot all be met may still all be kept, or kept by less.
-        let attempts = [&self.equalities[..], &[], &[], &[]];
-        let shares = MARGIN_SHARES[..1].iter().chain(&MARGIN_SHARES);
-        for (equalities, share) in attempts.into_iter().zip(shares) {
-            self.bounds.clear();
-            for (side, _) in self.sides.iter() {
-                let inside =
-                    distance_inside(approach.borders, side, approach.there.scalar(side.task));
-                self.bounds.push((share * MARGIN - inside) / self.period);
-            }
-            self.change.fill(0.0);
-            self.solver.set_identity();
-            let constraints = Constraints {
-                rows: self.sides.rows(),
-                bounds: &self.bounds,
-                equalities,
-            };
-            if self
-                .solver
-                .solve(&mut self.change, constraints, approach.pivots)
-                == Solution::Optimal
-            {
-                add_scaled(qd, 1.0, &self.change);
-                return true;
+        for (i, (side, _)) in self.sides.iter().enumerate() {
+            let inside = side.inside(
+                &approach.borders.next_interval(side.task),
+                approach.there.scalar(side.task),
+            );
+            self.bounds.push(landing_rate(inside, self.period));
+            if approach.held.contains(side) && !is_shortened {
+                self.equalities.push(i);
             }
         }
-        false
+        let sides = self.bounds.len();
+        if approach.limits.has_acceleration() {
+            approach
+                .limits
+                .push_rows(Some(approach.before), &mut self.rows, &mut self.bounds);
+            let ranges = self.rows[sides * qd.len()..].chunks_exact(qd.len());
+            for (bound, row) in self.bounds[sides..].iter_mut().zip(ranges) {
+                *bound -= dot(row, qd);
+            }
+        }
+        // Held sides that cannot all be met may still all be kept, and sets come before accelerations.
+        let (held, all) = (self.equalities.len(), self.bounds.len());
+        let attempts = [(held, all), (0, all), (0, sides)];
+        let with_margin = attempts.into_iter().enumerate().any(|(i, attempt)| {
+            let (held, rows) = attempt;
+            !attempts[..i].contains(&attempt) && self.change_by_least(approach, held, rows, qd)
+        });
+        let mut share = 1.0;
+        with_margin
+            || MARGIN_SHARES.into_iter().any(|less| {
+                for bound in &mut self.bounds[..sides] {
+                    *bound -= (share - less) * MARGIN / self.period;
+                }
+                share = less;
+                self.change_by_least(approach, 0, sides, qd)
+            })
+    }
+
+    /// q̇ += the least change under the first `rows` rows, the first `held` held sides met exactly.
+    fn change_by_least(
+        &mut self,
+        approach: &mut Approach<'_>,
+        held: usize,
+        rows: usize,
+        qd: &mut JointVec,
+    ) -> bool {
+        self.change.fill(0.0);
+        self.solver.set_identity();
+        let constraints = Constraints {
+            rows: &self.rows,
+            bounds: &self.bounds[..rows],
+            equalities: &self.equalities[..held],
+        };
+        let solution = self
+            .solver
+            .solve(&mut self.change, constraints, approach.pivots);
+        if solution == Solution::Optimal {
+            add_scaled(qd, 1.0, &self.change);
+        }
+        solution == Solution::Optimal
     }
 
     /// All sides of the high-priority sets, once a tick.
@@ -196,40 +297,59 @@ impl Landing {
         }
         for (task, level) in approach.stack.iter() {
             let Some(set) = level.interval() else { break };
-            for (is_upper, bound) in [(false, set.min), (true, set.max)] {
-                if bound.is_finite() {
-                    self.sides
-                        .push(approach.stack, approach.here, Side { task, is_upper });
+            for side in Side::both(task) {
+                if side.inside(set, 0.0).is_finite() {
+                    self.sides.push(approach.stack, approach.here, side);
                 }
             }
         }
     }
 }
 
-/// Whether every high-priority set is inside its bounds in force at the trial.
-fn is_inside(approach: &Approach<'_>) -> bool {
-    approach
-        .stack
-        .iter()
-        .take_while(|(_, level)| level.interval().is_some())
-        .all(|(task, _)| {
-            approach
-                .borders
-                .interval(task)
-                .contains(approach.there.scalar(task))
-        })
+impl Approach<'_> {
+    /// Whether every held side is a margin inside at the trial, to half of it.
+    fn holds_margins(&self) -> bool {
+        let tasks = self.held.tasks();
+        tasks
+            .iter()
+            .filter(|&task| self.stack.is_high_priority(task))
+            .flat_map(Side::both)
+            .filter(|&side| self.held.contains(side))
+            .all(|side| {
+                let set = self.borders.next_interval(side.task);
+                let inside = side.inside(&set, self.there.scalar(side.task));
+                (inside - MARGIN).abs() <= 0.5 * MARGIN
+            })
+    }
 }
 
-/// Whether every held side is a margin inside at the trial, to half of it.
-fn holds_margins(approach: &Approach<'_>, held: &Held) -> bool {
-    held.tasks()
-        .iter()
-        .filter(|&task| approach.stack.is_high_priority(task))
-        .all(|task| {
-            [false, true].into_iter().all(|is_upper| {
-                let side = Side { task, is_upper };
-                let inside = distance_inside(approach.borders, side, approach.there.scalar(task));
-                !held.contains(side) || (inside - MARGIN).abs() <= 0.5 * MARGIN
-            })
-        })
+/// The high-priority set that is furthest outside its bound in force at the end of the period, with
+/// these values; `None` if all are inside.
+fn worst(approach: &Approach<'_>, value: impl Fn(TaskId) -> f64) -> Option<Outside> {
+    let mut worst: Option<Outside> = None;
+    for (task, level) in approach.stack.iter() {
+        if level.interval().is_none() {
+            break;
+        }
+        let (set, sigma) = (approach.borders.next_interval(task), value(task));
+        if set.contains(sigma) {
+            continue;
+        }
+        let by = if sigma.is_nan() {
+            f64::INFINITY
+        } else {
+            set.violation(sigma)
+        };
+        if worst.is_none_or(|worst| by > worst.by) {
+            worst = Some(Outside { task, by });
+        }
+    }
+    worst
+}
+
+/// What `share` leaves of a velocity beyond its anchor.
+fn shorten(qd: &mut JointVec, anchor: &[f64], share: f64) {
+    for (speed, anchor) in qd.iter_mut().zip(anchor) {
+        *speed = anchor + share * (*speed - anchor);
+    }
 }

@@ -7,17 +7,19 @@
 //! allowed values. Once per period T the controller chooses a joint velocity q̇ and integrates it to
 //! the next joint reference q + T q̇.
 //!
-//! While all sets hold, the equality tasks alone decide. With σ̇ᵢ = σ̇ᵢ,des + Λᵢ (σᵢ,des − σᵢ), Jacobians
-//! Jᵢ and N the null-space projector of all rows stacked above level i,
+//! While all sets hold, the equality tasks alone decide. With sᵢ = σ̇ᵢ,des + Λᵢ (σᵢ,des − σᵢ), Jacobians
+//! Jᵢ and N the null-space projector of all rows stacked above level i, level by level,
 //!
 //! ```text
-//! q̇ = Σᵢ N Jᵢ⁺ σ̇ᵢ
+//! q̇ ← q̇ + (Jᵢ N)⁺ (sᵢ − Jᵢ q̇)            by default
+//! q̇ ← q̇ + N Jᵢ⁺ sᵢ                       in the paper
 //! ```
 //!
 //! A set-based task is ignored until it would leave its set: until it is at a border of C and J q̇
 //! points out of the tangent cone T_C(σ). Then it becomes *active*. Above the first equality task it
-//! is frozen, its row standing on top of the stack with reference zero; below, it is driven back to
-//! its border with a gain. The set of active tasks is the *mode*; [`Settings::mode_rule`] chooses it.
+//! is held there, and no sample lies outside; below, it is driven back to its border with a gain. The
+//! set of active tasks is the *mode*; [`Settings`] says how it is chosen, how sets are held, and how
+//! levels are fitted. `docs/method.md` in the repository has the whole.
 //!
 //! The method is that of Moe, Antonelli, Pettersen and Schrimpf, *Experimental Results for
 //! Set-based Control within the Singularity-robust Multiple Task-priority Inverse Kinematics
@@ -56,6 +58,8 @@
 extern crate alloc;
 
 mod active;
+mod anchor;
+mod barrier;
 mod border;
 mod cone;
 mod controller;
@@ -66,10 +70,12 @@ mod hierarchy;
 mod joints;
 mod kinematics;
 mod landing;
+mod limits;
 mod linalg;
 mod mode;
 mod monitor;
 mod real;
+mod reason;
 mod robot;
 mod settings;
 mod sides;
@@ -78,6 +84,7 @@ mod step;
 mod task;
 mod task_id;
 mod task_vectors;
+mod trigonometry;
 mod waypoints;
 
 pub use active::{ActiveSet, MAX_TASKS};
@@ -87,13 +94,18 @@ pub use dependence::dependent_tasks;
 pub use geometry::{Pose, Vec3};
 pub use joints::{JointVec, MAX_JOINTS, TooManyJoints};
 pub use kinematics::{Frame, Kinematics};
-pub use landing::Landed;
+pub use landing::{Landed, Outside};
+pub use limits::{Exceeded, Shortened};
 pub use mode::ModeOrder;
-pub use monitor::{Deviation, Monitor, PROPERTY_TOLERANCE, Properties, TaskHistory};
+pub use monitor::{
+    Deviation, JointHistory, Monitor, Observations, Occurrence, PROPERTY_TOLERANCE, Properties,
+    TaskHistory,
+};
+pub use reason::Reason;
 pub use robot::{DhRow, Joint, JointKind, JointLimits, Robot, RobotError};
 pub use settings::{Border, ModeRule, Recursion, Settings};
-pub use stack::{Goal, Level, Setpoints, Stack, StackError, StackErrorReason};
-pub use step::{SpeedLimit, Step};
+pub use stack::{BoundRates, Goal, Level, Setpoints, Stack, StackError, StackErrorReason};
+pub use step::Step;
 pub use task::{
     Axis, Coordinate, Distance, FieldOfView, JacobianMut, JointPosition, Position, Task,
 };

@@ -8,11 +8,11 @@ pub enum ModeRule {
     /// inactive set passes the tangent-cone test. It may freeze a task strictly inside its set.
     Paper,
     /// The same, but only tasks at or outside their border may be active.
-    #[default]
     Border,
     /// At each level the velocity nearest to what the task asks, among those that keep every
     /// high-priority set inside its tangent cone. Freezes nothing that would not leave, and does not
     /// depend on the order of the sets.
+    #[default]
     Cone,
 }
 
@@ -23,10 +23,10 @@ pub enum Border {
     /// An active high-priority set is frozen where it is, as in the paper. The sample at which it
     /// is found outside is not undone, so samples may lie outside by a term of first order in the
     /// control period.
-    #[default]
     Freeze,
     /// The next sample of every high-priority set is computed before it is committed, and corrected
     /// until it is inside: every sample lies in every set that was ever entered.
+    #[default]
     Land,
 }
 
@@ -36,10 +36,10 @@ pub enum Border {
 pub enum Recursion {
     /// q̇ = Σ N J⁺ σ̇_ref, the paper's singularity-robust form: each level is solved alone, then
     /// projected.
-    #[default]
     Chiaverini,
     /// q̇ ← q̇ + (J N)⁺ (σ̇_ref − J q̇): each level is fitted to what the levels above leave of it. Exact
     /// while feasible; damped where a level loses a direction to the levels above.
+    #[default]
     SicilianoSlotine,
 }
 
@@ -57,7 +57,7 @@ pub struct Settings {
 }
 
 impl Settings {
-    /// The default rules at a control rate [Hz].
+    /// Rule `Cone`, border `Land` and recursion `SicilianoSlotine` at a control rate [Hz].
     pub fn at_rate(rate_hz: f64) -> Self {
         Self {
             rate_hz,
@@ -70,8 +70,10 @@ impl Settings {
     /// The settings of the paper: rule `Paper`, border `Freeze`, recursion `Chiaverini`, 125 Hz.
     pub fn of_the_paper() -> Self {
         Self {
+            rate_hz: 125.0,
             mode_rule: ModeRule::Paper,
-            ..Self::at_rate(125.0)
+            border: Border::Freeze,
+            recursion: Recursion::Chiaverini,
         }
     }
 }

@@ -7,7 +7,8 @@
 use alloc::vec::Vec;
 
 use crate::active::ActiveSet;
-use crate::border::{Borders, MARGIN};
+use crate::border::MARGIN;
+use crate::cone::Interval;
 use crate::evaluation::Evaluation;
 use crate::stack::Stack;
 use crate::task_id::TaskId;
@@ -20,6 +21,27 @@ pub(crate) struct Side {
 }
 
 impl Side {
+    /// Both sides of a task.
+    pub(crate) fn both(task: TaskId) -> [Self; 2] {
+        [false, true].map(|is_upper| Self { task, is_upper })
+    }
+
+    /// Distance from a value to this side of a set, positive inside.
+    #[inline]
+    pub(crate) fn inside(self, set: &Interval, sigma: f64) -> f64 {
+        if self.is_upper {
+            set.max - sigma
+        } else {
+            sigma - set.min
+        }
+    }
+
+    /// A rate of σ as a rate into the set.
+    #[inline]
+    pub(crate) fn inward(self, rate: f64) -> f64 {
+        if self.is_upper { -rate } else { rate }
+    }
+
     /// A number for each side of each task.
     pub(crate) fn number(self) -> usize {
         2 * self.task.index() + usize::from(self.is_upper)
@@ -80,17 +102,6 @@ pub(crate) struct Sides {
     dof: usize,
 }
 
-/// Distance from a value to one side of its set, positive inside.
-#[inline]
-pub(crate) fn distance_inside(borders: &Borders, side: Side, sigma: f64) -> f64 {
-    let set = borders.interval(side.task);
-    if side.is_upper {
-        set.max - sigma
-    } else {
-        sigma - set.min
-    }
-}
-
 impl Sides {
     pub(crate) fn new(stack: &Stack) -> Self {
         let sets = stack
@@ -129,6 +140,11 @@ impl Sides {
 
     pub(crate) fn get(&self, i: usize) -> Side {
         self.list[i]
+    }
+
+    /// The row that was added last.
+    pub(crate) fn last_row(&self) -> &[f64] {
+        &self.rows[self.rows.len() - self.dof..]
     }
 
     pub(crate) fn rows(&self) -> &[f64] {

@@ -1,9 +1,13 @@
 //! What one tick of the controller decided, and why.
 
+use alloc::vec::Vec;
+
 use crate::active::ActiveSet;
 use crate::joints::JointVec;
 use crate::landing::Landed;
+use crate::limits::{Exceeded, Shortened};
 use crate::real::sqrt;
+use crate::reason::Reason;
 use crate::stack::Stack;
 use crate::task_id::TaskId;
 use crate::task_vectors::TaskVectors;
@@ -19,9 +23,12 @@ pub struct Step {
     pub qdd: JointVec,
     /// Joint positions q_ref = q + T q̇_ref [rad or m], for the end of this period.
     pub q_ref: JointVec,
-    /// By how much the whole velocity was scaled to meet the speed limits, and for which joint;
-    /// `None` if it was not.
-    pub speed_limit: Option<SpeedLimit>,
+    /// The joint for whose speed limit the whole velocity was shortened; `None` if it was not.
+    pub speed_limit: Option<Shortened>,
+    /// The joint for whose acceleration limit the whole change of velocity was shortened.
+    pub acceleration_limit: Option<Shortened>,
+    /// The joint whose acceleration is furthest beyond its limit, for the sake of a set.
+    pub acceleration_exceeded: Option<Exceeded>,
     /// Whether the exclusions left no mode that keeps every set. The arm then stands still.
     pub no_mode: bool,
     /// Number of modes whose velocity was computed, by the rules `Paper` and `Border`.
@@ -30,18 +37,13 @@ pub struct Step {
     pub pivots: usize,
     /// What it took to land, with border `Land`.
     pub landed: Landed,
+    pub(crate) reasons: Vec<Reason>,
     pub(crate) values: TaskVectors,
     pub(crate) errors: TaskVectors,
 }
 
-/// The joint whose speed limit bound.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SpeedLimit {
-    /// Index of the joint.
-    pub joint: usize,
-    /// Factor on the whole velocity, in (0, 1).
-    pub factor: f64,
-}
+/// Kinds of reasons that are not about a task.
+const REASONS_OF_THE_WHOLE: usize = 9;
 
 impl Step {
     pub(crate) fn at_rest(stack: &Stack) -> Self {
@@ -52,12 +54,47 @@ impl Step {
             qdd: still,
             q_ref: still,
             speed_limit: None,
+            acceleration_limit: None,
+            acceleration_exceeded: None,
             no_mode: false,
             modes_evaluated: 0,
             pivots: 0,
             landed: Landed::default(),
+            reasons: Vec::with_capacity(2 * stack.len() + REASONS_OF_THE_WHOLE),
             values: TaskVectors::zeros(stack),
             errors: TaskVectors::zeros(stack),
+        }
+    }
+
+    /// Why this tick came out as it did.
+    pub fn reasons(&self) -> &[Reason] {
+        &self.reasons
+    }
+
+    /// Adds the reasons that stand in the other fields.
+    pub(crate) fn explain_motion(&mut self) {
+        let landed = self.landed;
+        let counted =
+            |times: usize, reason: fn(usize) -> Reason| (times > 0).then(|| reason(times));
+        let reasons = [
+            self.speed_limit.map(Reason::SpeedLimit),
+            self.acceleration_limit.map(Reason::AccelerationLimit),
+            self.acceleration_exceeded.map(Reason::AccelerationExceeded),
+            counted(landed.corrections, Reason::Corrected),
+            counted(landed.halvings, Reason::Halved),
+            landed.stood_still.then_some(Reason::StandsStill),
+            landed.outside.map(Reason::GoesOutside),
+        ];
+        for reason in reasons.into_iter().flatten() {
+            self.add_reason(reason);
+        }
+    }
+
+    /// Adds a reason. There is room for one of each kind for the whole arm and two for each task; what
+    /// exceeds it is lost rather than allocated for.
+    pub(crate) fn add_reason(&mut self, reason: Reason) {
+        if self.reasons.len() < self.reasons.capacity() {
+            self.reasons.push(reason);
         }
     }
 

@@ -2,6 +2,7 @@
 
 use alloc::vec::Vec;
 
+use crate::linalg::not_finite;
 use crate::stack::Stack;
 use crate::task_id::TaskId;
 
@@ -40,7 +41,7 @@ impl TaskVectors {
 
     /// The first task with an entry that is not a finite number.
     pub(crate) fn not_finite(&self) -> Option<TaskId> {
-        let entry = self.entries.iter().position(|value| !value.is_finite())?;
+        let entry = not_finite(&self.entries)?;
         let task = self.starts.iter().rposition(|&start| start <= entry)?;
         Some(TaskId::new(task))
     }

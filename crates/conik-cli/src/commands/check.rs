@@ -5,12 +5,11 @@ use std::process::ExitCode;
 use conik_cli::report::units::limit;
 use conik_sim::check::{Findings, find};
 use conik_sim::experiment::Experiment;
-use conik_sim::scenario::{GoalConfig, Scenario};
+use conik_sim::scenario::{Choice, GoalConfig, Scenario};
 
 use crate::arguments::CheckArguments;
 use crate::failure::Failure;
 use crate::layout::{table, wrapped};
-use crate::present::rules;
 
 /// Prints the robot, the hierarchy, the modes and the doubts.
 pub fn check(arguments: &CheckArguments) -> Result<ExitCode, Failure> {
@@ -93,12 +92,22 @@ fn modes(scenario: &Scenario, experiment: &Experiment) -> String {
         .map_or("more modes than fit 64 bits".to_owned(), |count| {
             format!("{count} modes")
         });
-    format!(
-        "{sets} set-based tasks make {count}\n{} s at {} Hz, {}\n\n",
-        scenario.control.duration_s,
-        scenario.control.rate_hz,
-        rules(&scenario.control),
-    )
+    let control = &scenario.control;
+    let mut text = format!(
+        "{sets} set-based tasks make {count}\n{} s at {} Hz\n",
+        control.duration_s, control.rate_hz,
+    );
+    text += &explained("rule", control.mode_rule);
+    text += &explained("border", control.border);
+    text += &explained("recursion", control.recursion);
+    text + "\n"
+}
+
+/// A setting of the controller, and what it means.
+fn explained<T: Choice>(setting: &str, chosen: T) -> String {
+    let about = T::ALL.iter().find(|(value, _)| *value == chosen);
+    let about = about.map_or("", |(_, about)| about);
+    wrapped("  ", &format!("{setting} {}: {about}", chosen.name()))
 }
 
 fn doubts(findings: &Findings) -> String {

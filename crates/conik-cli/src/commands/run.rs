@@ -47,10 +47,13 @@ pub fn run(arguments: &RunArguments) -> Result<ExitCode, Failure> {
     let stop = stop_on_ctrl_c()?;
     let mut driven = arm(arguments, &scenario, &experiment)?;
     let out = out_dir(arguments);
-    clear(&out)?;
+    make_folder(&out)?;
     let log = LogWriter::create(&out.join("log.csv"), experiment.controller.stack())
-        .map_err(Failure::input)?;
+        .map_err(cannot_log)?;
+    clear(&out)?;
     let settings = settings(&scenario, &experiment, &arguments.robot);
+    let begun = Summariser::begun(&experiment, settings.clone(), env!("CARGO_PKG_VERSION"));
+    write_summary(&out, &begun).map_err(Failure::input)?;
     if !arguments.quiet {
         super::print(&present::heading(&scenario, &driven.arm.describe()))?;
     }
@@ -76,8 +79,7 @@ fn out_dir(arguments: &RunArguments) -> PathBuf {
     })
 }
 
-/// Makes the folder, and takes away what would tell of an earlier run beside this run's log.
-fn clear(out: &Path) -> Result<(), Failure> {
+fn make_folder(out: &Path) -> Result<(), Failure> {
     fs::create_dir_all(out).map_err(|error| {
         Failure::input(if out.exists() && !out.is_dir() {
             format!(
@@ -90,7 +92,20 @@ fn clear(out: &Path) -> Result<(), Failure> {
                 out.display()
             )
         })
-    })?;
+    })
+}
+
+fn cannot_log(error: LogWriteError) -> Failure {
+    match error {
+        LogWriteError::Busy { .. } => {
+            Failure::input(format!("{error}; give another folder with --out"))
+        }
+        LogWriteError::Io { .. } => Failure::input(error),
+    }
+}
+
+/// Takes away what would tell of an earlier run beside this run's log.
+fn clear(out: &Path) -> Result<(), Failure> {
     for name in [SUMMARY, REPORT] {
         let path = out.join(name);
         match fs::remove_file(&path) {
@@ -186,7 +201,9 @@ fn arm(
 struct Finished {
     ended: Ended,
     summariser: Summariser,
-    log: Result<(), LogWriteError>,
+    written: Result<(), LogWriteError>,
+    /// Keeps other runs out of the folder until the report is there.
+    _log: LogWriter,
 }
 
 fn drive(
@@ -196,11 +213,8 @@ fn drive(
     mut progress: Progress,
     stop: &AtomicBool,
 ) -> Finished {
-    let waypoints = experiment
-        .waypoints
-        .as_ref()
-        .map_or(0, |(_, w)| w.points().len());
-    let mut summariser = Summariser::new(experiment.controller.stack(), waypoints);
+    let stack = experiment.controller.stack();
+    let mut summariser = Summariser::new(stack, experiment.waypoint_count());
     let (sender, records) = mpsc::sync_channel(RECORDS_WAITING);
     let mut written = Ok(());
     let ended = thread::scope(|scope| {
@@ -232,7 +246,8 @@ fn drive(
     Finished {
         ended,
         summariser,
-        log: written.and_then(|()| log.finish()),
+        written: written.and_then(|()| log.finish()),
+        _log: log,
     }
 }
 
@@ -261,17 +276,15 @@ fn finish(
     let Finished {
         ended,
         summariser,
-        log,
+        written,
+        _log,
     } = finished;
     let mut summary = summariser.finish(&ended, settings, env!("CARGO_PKG_VERSION"));
-    let mut errors = vec![];
-    if let Outcome::Fault { name, detail } = &summary.outcome {
-        errors.push(format!("{name}: {detail}"));
-    }
-    let drawable = log.is_ok() && !summary.modes.is_empty();
-    if let Err(error) = log {
+    let mut errors = summary.faults();
+    let drawable = written.is_ok() && !summary.modes.is_empty();
+    if let Err(error) = written {
         errors.push(error.to_string());
-        if errors.len() == 1 {
+        if !matches!(summary.outcome, Outcome::Fault { .. }) {
             summary.outcome = Outcome::Fault {
                 name: "log-failed".to_owned(),
                 detail: error.to_string(),
@@ -297,14 +310,21 @@ fn finish(
     }
     Ok(match summary.outcome {
         Outcome::Interrupted => ExitCode::from(INTERRUPTED),
-        Outcome::Completed | Outcome::Fault { .. } => ExitCode::SUCCESS,
+        Outcome::Completed | Outcome::Fault { .. } | Outcome::Running => ExitCode::SUCCESS,
     })
 }
 
+/// Writes the summary in one go: whoever is killed meanwhile leaves the one before.
 fn write_summary(out: &Path, summary: &Summary) -> Result<(), String> {
     let path = out.join(SUMMARY);
+    let part = out.join("summary.json.part");
     serde_json::to_string_pretty(summary)
         .map_err(io::Error::from)
-        .and_then(|text| fs::write(&path, text + "\n"))
-        .map_err(|error| format!("cannot write {}: {error}", path.display()))
+        .and_then(|text| fs::write(&part, text + "\n"))
+        .and_then(|()| fs::rename(&part, &path))
+        .map_err(|error| {
+            // What is left of it says nothing; if it cannot go either, that changes nothing.
+            let _ = fs::remove_file(&part);
+            format!("cannot write {}: {error}", path.display())
+        })
 }

@@ -1,17 +1,20 @@
 //! A finished run as the figures see it: its log, its summary, and when which mode was in force.
 
-use std::fs;
-use std::io;
+use std::fs::File;
+use std::io::{self, BufReader, Read};
 use std::path::{Path, PathBuf};
 
 use conik_sim::log::{Log, LogError};
 use conik_sim::scenario::{GoalConfig, TaskConfig};
-use conik_sim::summary::{Outcome, Summary};
+use conik_sim::summary::{ModeChange, Outcome, Summary};
 
 use super::palette;
 
 /// More stretches of one mode than this cannot be told apart in a picture.
 const MOST_SPANS: usize = 400;
+
+/// Bytes of the largest summary that is read: over a million changes of mode.
+const LARGEST_SUMMARY: u64 = 1 << 28;
 
 /// What a run folder holds.
 #[derive(Clone, Debug)]
@@ -42,6 +45,14 @@ impl Mode {
             self.active.join(" + ")
         }
     }
+
+    fn since(&self, span: &Span) -> ModeChange {
+        ModeChange {
+            t_s: span.from_s,
+            mode: self.number,
+            active: self.active.clone(),
+        }
+    }
 }
 
 /// A stretch of time in one mode.
@@ -59,13 +70,9 @@ impl Run {
     /// Reads `log.csv` and `summary.json` in the folder `dir`.
     pub fn load(dir: &Path) -> Result<Self, RunError> {
         let path = dir.join("summary.json");
-        let text = match fs::read_to_string(&path) {
-            Ok(text) => text,
+        let summary = match File::open(&path) {
+            Ok(file) => read_summary(file, LARGEST_SUMMARY, path)?,
             Err(source) => return Err(RunError::Read { path, source }),
-        };
-        let summary: Summary = match serde_json::from_str(&text) {
-            Ok(summary) => summary,
-            Err(source) => return Err(RunError::Summary { path, source }),
         };
         let path = dir.join("log.csv");
         // Accelerations and measurements appear in no figure.
@@ -79,9 +86,17 @@ impl Run {
     }
 
     /// A run from its log and its summary.
-    pub fn new(log: Log, summary: Summary) -> Self {
+    pub fn new(log: Log, mut summary: Summary) -> Self {
         let modes = modes_of(&log);
         let spans = spans_of(&log);
+        if summary.outcome == Outcome::Running {
+            // Written before the first tick: the log knows more.
+            summary.ended_at_s = log.time_s().last().copied().unwrap_or(0.0);
+            summary.modes = spans
+                .iter()
+                .map(|span| modes[span.mode].since(span))
+                .collect();
+        }
         Self {
             log,
             summary,
@@ -164,10 +179,16 @@ impl Run {
         whiles.concat()
     }
 
+    /// Whether nobody wrote how the run ended: only the log tells of it.
+    pub fn was_cut_off(&self) -> bool {
+        self.summary.outcome == Outcome::Running
+    }
+
     /// A word on how the run ended, if it ended before its time.
     pub fn early_end(&self) -> Option<String> {
         match &self.summary.outcome {
             Outcome::Completed => None,
+            Outcome::Running => Some("cut off".to_owned()),
             Outcome::Interrupted => Some("interrupted".to_owned()),
             Outcome::Fault { name, .. } => Some(format!("fault: {name}")),
         }
@@ -187,6 +208,20 @@ impl Run {
 /// Whether the task is set-based.
 pub fn is_set(task: &TaskConfig) -> bool {
     matches!(task.goal, GoalConfig::Set { .. })
+}
+
+/// Reads no more than what a summary may have, so that an endless file has an end.
+fn read_summary(source: impl Read, largest: u64, path: PathBuf) -> Result<Summary, RunError> {
+    let mut text = BufReader::new(source.take(largest));
+    match serde_json::from_reader(&mut text) {
+        Ok(summary) => Ok(summary),
+        Err(_) if text.get_ref().limit() == 0 => Err(RunError::Large { path, largest }),
+        Err(source) if source.is_io() => Err(RunError::Read {
+            path,
+            source: source.into(),
+        }),
+        Err(source) => Err(RunError::Summary { path, source }),
+    }
 }
 
 fn modes_of(log: &Log) -> Vec<Mode> {
@@ -259,6 +294,14 @@ pub enum RunError {
         /// What is wrong, with line and column.
         source: serde_json::Error,
     },
+    /// The summary is larger than any.
+    #[error("{}: larger than {largest} bytes; is this the folder of a run?", path.display())]
+    Large {
+        /// The file.
+        path: PathBuf,
+        /// What is read at most.
+        largest: u64,
+    },
     /// The log cannot be read.
     #[error(transparent)]
     Log(#[from] LogError),
@@ -268,4 +311,15 @@ pub enum RunError {
         /// The file.
         path: PathBuf,
     },
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn endless_summary_has_an_end() {
+        let error = read_summary(io::repeat(b' '), 9999, "summary.json".into()).unwrap_err();
+        assert!(error.to_string().contains("summary.json: larger than"));
+    }
 }

@@ -37,15 +37,15 @@ pub fn write(dir: &Path) -> Result<PathBuf, ReportError> {
 /// The page as text.
 pub fn page(run: &Run) -> String {
     let title = Escaped(run.title());
-    let sections = [
-        figure_four(run),
-        tables::tasks(run),
-        properties::section(run),
-        tables::mode_changes(run),
-        tables::timing(run),
-        joints_section(run),
-        settings(run),
-    ];
+    let mut sections = vec![figure_four(run)];
+    if !run.was_cut_off() {
+        sections.extend([tables::tasks(run), properties::section(run)]);
+    }
+    sections.push(tables::mode_changes(run));
+    if !run.was_cut_off() {
+        sections.push(tables::timing(run));
+    }
+    sections.extend([joints_section(run), settings(run)]);
     format!(
         "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
          <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\

@@ -18,7 +18,10 @@ pub fn banner(run: &Run) -> String {
     };
     let mut notes = match &summary.outcome {
         Outcome::Fault { detail, .. } => format!("<p>{}</p>\n", Escaped(detail)),
-        _ => String::new(),
+        Outcome::Running => "<p>The program was killed, or is still running: what became of the \
+             tasks and of the properties was not written.</p>\n"
+            .to_owned(),
+        Outcome::Completed | Outcome::Interrupted => String::new(),
     };
     if run.log().is_truncated() {
         notes.push_str("<p>The last line of the log was cut off and is left out.</p>\n");
@@ -41,17 +44,21 @@ fn sentence(run: &Run) -> String {
     let end = match &summary.outcome {
         Outcome::Completed => "<strong>Completed</strong>".to_owned(),
         Outcome::Interrupted => "<strong>Interrupted</strong>".to_owned(),
+        Outcome::Running => "<strong>Cut off</strong>".to_owned(),
         Outcome::Fault { name, .. } => {
             format!("<strong>Stopped by a fault ({})</strong>", Escaped(name))
         }
     };
+    let arrivals = match &summary.outcome {
+        Outcome::Running => String::new(),
+        _ => waypoints(&summary.waypoints_reached_s),
+    };
     format!(
-        "{end} after {} of {} on {arm}, robot {}, at {} Hz. {}",
+        "{end} after {} of {} on {arm}, robot {}, at {} Hz. {arrivals}",
         seconds(summary.ended_at_s),
         seconds(control.duration_s),
         Escaped(&settings.scenario.robot.model),
         number(control.rate_hz, 4),
-        waypoints(&summary.waypoints_reached_s),
     )
 }
 

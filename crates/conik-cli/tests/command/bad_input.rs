@@ -154,6 +154,11 @@ fn bad_option_is_named() {
         ("--duration-s 0", "--duration-s: 0 is out of range"),
         ("--duration-s -1", "--duration-s: -1 is out of range"),
         ("--duration-s inf", "--duration-s: inf"),
+        ("--duration-s nan", "--duration-s: NaN"),
+        (
+            "--duration-s 0.007",
+            "--duration-s: 0.007 s are shorter than one control period at 125 Hz",
+        ),
         (
             "--duration-s 86400 --rate-hz 10000",
             "--duration-s: 86400 s at 10000 Hz",

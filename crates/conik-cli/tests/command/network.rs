@@ -87,5 +87,11 @@ fn nobody_listening_is_a_fault_with_a_name() {
         "one fault, one message: {said:#?}"
     );
     assert!(said.stdout.contains("before the first tick"), "{said:#?}");
-    assert_eq!(summary(&folder)["outcome"]["name"], "connect-failed");
+    let summary = summary(&folder);
+    assert_eq!(summary["outcome"]["name"], "connect-failed");
+    // Not a single tick: nothing was shown.
+    assert!(summary["tasks"]["position"]["final_error"].is_null());
+    for (name, property) in summary["properties"].as_object().unwrap() {
+        assert_eq!(property["holds"], false, "{name}");
+    }
 }

@@ -181,6 +181,16 @@ fn options_override_the_file() {
     assert_eq!(control["rate_hz"], 250.0);
     assert_eq!(control["duration_s"], 1.5);
     assert_eq!(control["mode_rule"], "border");
+    assert_eq!(control["border"], "freeze");
+    assert_eq!(control["recursion"], "chiaverini");
+
+    let line = "--robot ideal --out . --duration-s 1 --mode-rule cone --border land \
+                --recursion siciliano-slotine";
+    done(&folder, &format!("run {} {line}", example.display()));
+    let control = &summary(&folder)["settings"]["scenario"]["control"];
+    assert_eq!(control["mode_rule"], "cone");
+    assert_eq!(control["border"], "land");
+    assert_eq!(control["recursion"], "siciliano-slotine");
 }
 
 #[test]

@@ -81,14 +81,16 @@ pub struct Running(Child);
 impl Running {
     /// Starts `conik` in `folder`, its output piped.
     pub fn start(folder: &Path, line: &str) -> Self {
-        Self(
+        Self::of(
             conik(line.split_whitespace())
                 .current_dir(folder)
-                .stdout(Stdio::piped())
-                .stderr(Stdio::piped())
-                .spawn()
-                .unwrap(),
+                .stderr(Stdio::piped()),
         )
+    }
+
+    /// Starts a command, its standard output piped.
+    pub fn of(command: &mut Command) -> Self {
+        Self(command.stdout(Stdio::piped()).spawn().unwrap())
     }
 
     /// The process.

@@ -24,6 +24,53 @@ fn check_prints_robot_hierarchy_modes_and_doubts_and_writes_nothing() {
 }
 
 #[test]
+fn check_speaks_of_the_rules_in_use() {
+    let folder = empty_folder("check rules");
+    let text = fs::read_to_string(paper("example2")).unwrap();
+    let check = |name: &str, from: [&str; 3], to: [&str; 3]| {
+        let changed = from.iter().zip(to).fold(text.clone(), |text, (from, to)| {
+            assert!(text.contains(from), "{from}");
+            text.replace(from, to)
+        });
+        fs::write(folder.join(name), changed).unwrap();
+        let said = done(&folder, &format!("check {name}"));
+        assert!(said.lines().all(|l| l.chars().count() <= 80), "{said}");
+        // Where lines are broken does not matter.
+        said.split_whitespace().collect::<Vec<_>>().join(" ")
+    };
+    let settings = [
+        "mode_rule = \"paper\"",
+        "border = \"freeze\"",
+        "recursion = \"chiaverini\"",
+    ];
+
+    let paper = check("paper.toml", settings, settings);
+    assert!(paper.contains("rule paper: all subsets"), "{paper}");
+    assert!(paper.contains("wait for ever"), "{paper}");
+    assert!(
+        paper.contains("border `freeze` decides at samples"),
+        "{paper}"
+    );
+    assert!(!paper.contains("`exclusive`"), "{paper}");
+
+    let default = check("default.toml", settings, ["", "", ""]);
+    assert!(default.contains("rule cone: at each level"), "{default}");
+    assert!(
+        default.contains("border land: the next sample"),
+        "{default}"
+    );
+    assert!(
+        default.contains("recursion siciliano-slotine: each"),
+        "{default}"
+    );
+    assert!(default.contains("`exclusive` has no effect with rule `cone`"));
+    assert!(!default.contains("wait for ever") && !default.contains("decides at samples"));
+
+    let mixed = check("mixed.toml", settings, ["", "", settings[2]]);
+    assert!(mixed.contains("may come to rest where the sets leave a way"));
+}
+
+#[test]
 fn plot_draws_the_figures_and_the_report_again() {
     let folder = empty_folder("plot");
     let line = format!(

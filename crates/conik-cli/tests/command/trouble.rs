@@ -146,6 +146,115 @@ fn stopped_run_keeps_its_log_and_says_what_became_of_it() {
 }
 
 #[test]
+fn second_run_into_the_same_folder_is_refused() {
+    let folder = empty_folder("two at once");
+    let line = format!(
+        "run {} --duration-s 3600 --out both",
+        paper("example2").display()
+    );
+    let first = Running::start(&folder, &line);
+    let log = folder.join("both/log.csv");
+    wait_for("rows", || {
+        fs::metadata(&log).ok().filter(|log| log.len() > 0)
+    });
+    let second = say(&folder, &format!("{line} --robot ideal"));
+    assert_eq!(second.status, Some(2), "{second:#?}");
+    assert!(
+        second.stderr.contains("another run is writing to both;"),
+        "{second:#?}"
+    );
+    first.signal("INT");
+    assert_eq!(first.wait().status, Some(130));
+    Rows::of(&folder.join("both")).assert_complete(125.0);
+}
+
+#[test]
+fn killed_run_can_still_be_drawn() {
+    let folder = empty_folder("killed");
+    let line = format!(
+        "run {} --duration-s 3600 --out .",
+        paper("example2").display()
+    );
+    let mut run = Running::start(&folder, &line);
+    let log = folder.join("log.csv");
+    wait_for("rows", || {
+        fs::metadata(&log).ok().filter(|log| log.len() > 0)
+    });
+    run.child().kill().unwrap();
+    assert_eq!(run.wait().status, None, "killed by a signal");
+    assert_eq!(summary(&folder)["outcome"]["kind"], "running");
+    // Half a line, as a kill in the midst of a write leaves it.
+    let mut text = fs::read_to_string(&log).unwrap();
+    text.truncate(text.rfind('\n').unwrap() + 1);
+    let last = text.lines().last().unwrap().split(',').next().unwrap();
+    let last: f64 = last.parse().unwrap();
+    fs::write(&log, text + "3599.9,1,vi").unwrap();
+
+    done(&folder, "plot .");
+    let report = fs::read_to_string(folder.join("report.html")).unwrap();
+    let ended = format!("<strong>Cut off</strong> after {last}\u{a0}s of 3600\u{a0}s");
+    assert!(report.contains(&ended), "{ended}");
+    assert!(report.contains("The last line of the log was cut off"));
+    assert!(!report.contains("not reached"), "nobody knows");
+    assert!(!report.contains("The five properties"), "nobody knows");
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn endless_files_of_a_run_folder_are_refused() {
+    let folder = empty_folder("endless");
+    let line = format!(
+        "run {} --robot ideal --duration-s 1 --out .",
+        paper("example2").display()
+    );
+    done(&folder, &line);
+    for name in ["log.csv", "summary.json"] {
+        let path = folder.join(name);
+        fs::remove_file(&path).unwrap();
+        std::os::unix::fs::symlink("/dev/zero", &path).unwrap();
+        let said = say(&folder, "plot .");
+        assert_eq!(said.status, Some(2), "{said:#?}");
+        assert!(said.stderr.contains(&format!("./{name}:")), "{said:#?}");
+    }
+}
+
+#[test]
+fn error_that_nobody_reads_keeps_its_status() {
+    let (reader, writer) = std::io::pipe().unwrap();
+    drop(reader);
+    let status = conik(["check", "no-such-file.toml"])
+        .stderr(writer)
+        .status()
+        .unwrap();
+    assert_eq!(status.code(), Some(2));
+}
+
+#[test]
+fn run_goes_on_when_nobody_reads_its_progress() {
+    let folder = empty_folder("unread");
+    let (reader, writer) = std::io::pipe().unwrap();
+    drop(reader);
+    let line = format!(
+        "run {} --duration-s 3600 --out .",
+        paper("example2").display()
+    );
+    let mut run = Running::of(
+        conik(line.split_whitespace())
+            .current_dir(&folder)
+            .stderr(writer),
+    );
+    // Past the first line of progress, which comes after five seconds.
+    wait_for("six seconds of rows", || {
+        assert_eq!(run.child().try_wait().unwrap(), None, "it ended");
+        let text = fs::read_to_string(folder.join("log.csv")).ok()?;
+        (text.lines().count() > 6 * 125).then_some(())
+    });
+    run.signal("INT");
+    assert_eq!(run.wait().status, Some(130));
+    assert_eq!(summary(&folder)["outcome"]["kind"], "interrupted");
+}
+
+#[test]
 fn run_without_input_and_output_still_writes_its_files() {
     let folder = empty_folder("closed");
     let script = "exec \"$0\" run \"$1\" --fast --duration-s 1 --out . <&- >&- 2>&-";

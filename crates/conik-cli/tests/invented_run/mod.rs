@@ -9,8 +9,8 @@ use conik_sim::scenario::{
     Border, Control, GoalConfig, ModeRule, Recursion, RobotConfig, Scenario, TaskConfig, TaskKind,
 };
 use conik_sim::summary::{
-    FORMAT, ModeChange, Outcome, Properties, Property, Settings, StepTime, Summary, TaskSummary,
-    Tracking,
+    FORMAT, ModeChange, Outcome, Properties, Property, Settings, StepTime, StepWork, Summary,
+    TaskSummary, Tracking,
 };
 
 /// What the invented run is like.
@@ -289,6 +289,8 @@ impl Invention {
             }),
             speed_limited_ticks: 0,
             no_mode_ticks: 0,
+            landing: None,
+            step_work_max: StepWork::default(),
         }
     }
 }

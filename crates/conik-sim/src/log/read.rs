@@ -2,9 +2,13 @@
 
 use std::collections::HashMap;
 use std::fs::File;
-use std::io::{self, BufRead, BufReader};
+use std::io::{self, BufRead, BufReader, Read};
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
+
+/// Bytes of the longest line that is read, beyond what thousands of tasks need: a file without line
+/// ends would else fill the memory.
+const LONGEST_LINE: u64 = 1 << 20;
 
 /// The log of one run, by columns.
 ///
@@ -119,6 +123,17 @@ pub enum LogError {
         /// The column's name.
         column: String,
     },
+    /// A line is longer than that of any log.
+    #[error(
+        "{}:{line}: this line has more than {LONGEST_LINE} bytes; is this the log.csv of a run?",
+        path.display()
+    )]
+    LongLine {
+        /// The file.
+        path: PathBuf,
+        /// 1-based line.
+        line: u64,
+    },
     /// A row has more or fewer cells than the header.
     #[error("{}:{line}: {found} cells where the header has {expected}", path.display())]
     Width {
@@ -203,10 +218,17 @@ impl<'a, R: BufRead> Reader<'a, R> {
     fn next_line(&mut self, text: &mut String) -> Result<bool, LogError> {
         text.clear();
         self.line += 1;
-        match self.source.read_line(text) {
+        let path = || self.path.to_owned();
+        match (&mut self.source).take(LONGEST_LINE).read_line(text) {
+            Ok(bytes) if bytes as u64 == LONGEST_LINE && !text.ends_with('\n') => {
+                Err(LogError::LongLine {
+                    path: path(),
+                    line: self.line,
+                })
+            }
             Ok(bytes) => Ok(bytes > 0),
             Err(source) => Err(LogError::Io {
-                path: self.path.to_owned(),
+                path: path(),
                 source,
             }),
         }
@@ -378,6 +400,14 @@ mod tests {
         }
         let error = Log::load("no/such/log.csv").unwrap_err().to_string();
         assert!(error.contains("no/such/log.csv"), "{error}");
+    }
+
+    #[test]
+    fn line_without_end_is_not_read_to_its_end() {
+        let endless = BufReader::new(HEADER.as_bytes().chain(io::repeat(b'0')));
+        let error = Reader::new(Path::new("log.csv"), endless).read(|_| true);
+        let error = error.unwrap_err().to_string();
+        assert!(error.contains("log.csv:2: this line has more"), "{error}");
     }
 
     #[test]

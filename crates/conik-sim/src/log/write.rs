@@ -1,6 +1,6 @@
 //! Writes `log.csv`.
 
-use std::fs::File;
+use std::fs::{File, TryLockError};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 
@@ -12,7 +12,7 @@ use crate::run::Columns;
 /// Rows after which what is buffered goes to the file, so that a killed run leaves its log.
 const ROWS_BETWEEN_FLUSHES: u64 = 128;
 
-/// Writes the rows of `log.csv` as they come.
+/// Writes the rows of `log.csv` as they come. As long as it lives, no other can write the same file.
 #[derive(Debug)]
 pub struct LogWriter {
     path: PathBuf,
@@ -34,21 +34,41 @@ struct Head {
 
 /// A log that could not be written.
 #[derive(Debug, thiserror::Error)]
-#[error("cannot write {}: {source}", path.display())]
-pub struct LogWriteError {
-    /// The file.
-    pub path: PathBuf,
-    /// What the system says.
-    pub source: io::Error,
+pub enum LogWriteError {
+    /// The file cannot be written.
+    #[error("cannot write {}: {source}", path.display())]
+    Io {
+        /// The file.
+        path: PathBuf,
+        /// What the system says.
+        source: io::Error,
+    },
+    /// Another writer has the file.
+    #[error("another run is writing to {}", folder.display())]
+    Busy {
+        /// The folder in which the log is.
+        folder: PathBuf,
+    },
 }
 
 impl LogWriter {
-    /// Begins a log at `path`; whatever was there is replaced.
+    /// Begins a log at `path`; whatever was there is replaced, unless another run is writing it.
     pub fn create(path: &Path, stack: &Stack) -> Result<Self, LogWriteError> {
-        let file = File::create(path).map_err(|source| LogWriteError {
+        let io = |source| LogWriteError::Io {
             path: path.to_owned(),
             source,
-        })?;
+        };
+        let file = File::options()
+            .write(true)
+            .create(true)
+            .truncate(false) // not before the lock
+            .open(path)
+            .map_err(io)?;
+        // A device has neither a length nor one owner.
+        if file.metadata().map_err(io)?.is_file() {
+            lock(&file, path)?;
+            file.set_len(0).map_err(io)?;
+        }
         Ok(Self {
             path: path.to_owned(),
             file: BufWriter::with_capacity(1 << 16, file),
@@ -71,7 +91,7 @@ impl LogWriter {
     }
 
     /// Brings everything to the file.
-    pub fn finish(mut self) -> Result<(), LogWriteError> {
+    pub fn finish(&mut self) -> Result<(), LogWriteError> {
         self.file
             .flush()
             .and_then(|()| self.file.get_ref().sync_all())
@@ -79,7 +99,7 @@ impl LogWriter {
     }
 
     fn error(&self, source: io::Error) -> LogWriteError {
-        LogWriteError {
+        LogWriteError::Io {
             path: self.path.clone(),
             source,
         }
@@ -95,6 +115,16 @@ impl LogWriter {
             self.file.flush()?;
         }
         Ok(())
+    }
+}
+
+/// Takes the file for this writer alone. Where the file system knows no locks, nothing is taken.
+fn lock(file: &File, path: &Path) -> Result<(), LogWriteError> {
+    match file.try_lock() {
+        Err(TryLockError::WouldBlock) => Err(LogWriteError::Busy {
+            folder: path.parent().unwrap_or(path).to_owned(),
+        }),
+        Ok(()) | Err(TryLockError::Error(_)) => Ok(()),
     }
 }
 

@@ -7,9 +7,6 @@ pub trait Choice: Copy + PartialEq + Sized + 'static {
     /// Every value that this version has, each with one line for people.
     const ALL: &'static [(Self, &'static str)];
 
-    /// Names that a later version will have; asked for today, they deserve an honest answer.
-    const NOT_YET: &'static [&'static str] = &[];
-
     /// The value's name in the file.
     fn name(self) -> &'static str;
 
@@ -32,41 +29,60 @@ impl Choice for ModeRule {
             Self::Border,
             "the same, but only tasks at or outside their border may be active",
         ),
+        (
+            Self::Cone,
+            "at each level the velocity nearest to what the task asks that keeps every \
+             high-priority set",
+        ),
     ];
-    const NOT_YET: &'static [&'static str] = &["cone"];
 
     fn name(self) -> &'static str {
         match self {
             Self::Paper => "paper",
             Self::Border => "border",
+            Self::Cone => "cone",
         }
     }
 }
 
 impl Choice for Border {
-    const ALL: &'static [(Self, &'static str)] = &[(
-        Self::Freeze,
-        "active high-priority sets are frozen, as in the paper; between samples a set may be left by a little",
-    )];
-    const NOT_YET: &'static [&'static str] = &["land"];
+    const ALL: &'static [(Self, &'static str)] = &[
+        (
+            Self::Freeze,
+            "active high-priority sets are frozen where they are, as in the paper; samples may lie \
+             a little outside",
+        ),
+        (
+            Self::Land,
+            "the next sample is computed first and corrected: no sample lies outside a \
+             high-priority set that was ever entered",
+        ),
+    ];
 
     fn name(self) -> &'static str {
         match self {
             Self::Freeze => "freeze",
+            Self::Land => "land",
         }
     }
 }
 
 impl Choice for Recursion {
-    const ALL: &'static [(Self, &'static str)] = &[(
-        Self::Chiaverini,
-        "the singularity-robust form of the paper: each task is solved alone, then projected",
-    )];
-    const NOT_YET: &'static [&'static str] = &["siciliano-slotine"];
+    const ALL: &'static [(Self, &'static str)] = &[
+        (
+            Self::Chiaverini,
+            "the singularity-robust form of the paper: each task is solved alone, then projected",
+        ),
+        (
+            Self::SicilianoSlotine,
+            "each task is fitted to what the tasks above leave of it, damped near singularities",
+        ),
+    ];
 
     fn name(self) -> &'static str {
         match self {
             Self::Chiaverini => "chiaverini",
+            Self::SicilianoSlotine => "siciliano-slotine",
         }
     }
 }

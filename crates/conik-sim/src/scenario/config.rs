@@ -48,9 +48,9 @@ impl Default for Control {
         Self {
             rate_hz: 125.0,
             duration_s: 60.0,
-            mode_rule: ModeRule::Border,
-            border: Border::Freeze,
-            recursion: Recursion::Chiaverini,
+            mode_rule: ModeRule::Cone,
+            border: Border::Land,
+            recursion: Recursion::SicilianoSlotine,
             exclusive: Vec::new(),
         }
     }
@@ -64,6 +64,8 @@ pub enum ModeRule {
     Paper,
     /// The same, but only tasks at or outside their border may be active.
     Border,
+    /// The velocity nearest to what each task asks that keeps every high-priority set.
+    Cone,
 }
 
 /// `control.border`.
@@ -72,6 +74,8 @@ pub enum ModeRule {
 pub enum Border {
     /// Active high-priority sets are frozen, as in the paper.
     Freeze,
+    /// No sample lies outside a high-priority set that was ever entered.
+    Land,
 }
 
 /// `control.recursion`.
@@ -80,6 +84,8 @@ pub enum Border {
 pub enum Recursion {
     /// The singularity-robust form of the paper.
     Chiaverini,
+    /// Each task is fitted to what the tasks above leave of it.
+    SicilianoSlotine,
 }
 
 /// One task: what it measures, and what is asked of it.

@@ -74,7 +74,7 @@ pub(super) fn read(table: &Table, found: &mut Mistakes) -> ReadControl {
     }
 }
 
-/// Notes a run of more ticks than a log can hold.
+/// Notes a run of more ticks than a log can hold, or of not one whole period.
 fn check_ticks(table: &Table, rate_hz: Option<f64>, duration_s: Option<f64>, found: &mut Mistakes) {
     let (Some(rate_hz), Some(duration_s)) = (rate_hz, duration_s) else {
         return;
@@ -91,6 +91,15 @@ fn check_ticks(table: &Table, rate_hz: Option<f64>, duration_s: Option<f64>, fou
                 "at this rate, run for at most {} s",
                 (keys::MOST_TICKS / rate_hz).floor()
             ),
+        );
+    }
+    // As the last tick is found: what is a period but for rounding is one.
+    if rate_hz * duration_s + 1e-9 < 1.0 && duration_s > 0.0 {
+        found.add(
+            table.span_of(&keys::DURATION_S),
+            table.path_of(&keys::DURATION_S),
+            format!("{duration_s} s are shorter than one control period at {rate_hz} Hz"),
+            format!("at this rate, run for at least {} s", 1.0 / rate_hz),
         );
     }
 }

@@ -112,18 +112,19 @@ fn check_group(group: &Group, tasks: &[ReadTask], found: &mut Mistakes) {
             ),
             None => (
                 format!("there is no task {shown}"),
-                meant_set(&name.value, tasks),
+                meant_set(&name.value, group, tasks),
             ),
         };
         found.add(name.span.clone(), &*name.path, what, help);
     }
 }
 
-/// Which set-based task may be meant by a name that no task has.
-fn meant_set(name: &str, tasks: &[ReadTask]) -> String {
+/// Which set-based task may be meant by a name that no task has: none that the group names anyway.
+fn meant_set(name: &str, group: &Group, tasks: &[ReadTask]) -> String {
     let sets = tasks.iter().filter(|task| task.role == Role::Set);
     let names = sets.filter_map(|task| Some(task.name.as_ref()?.value.as_str()));
-    match nearest(name, names.clone()) {
+    let named = |meant: &&str| group.value.iter().any(|other| other.value == **meant);
+    match nearest(name, names.clone().filter(|meant| !named(meant))) {
         Some(meant) => format!("did you mean {}?", quoted(meant)),
         None => format!("the set-based tasks are: {}", first_few(names)),
     }

@@ -108,27 +108,27 @@ pub(super) const MODE_RULE: Key = Key::new(
     "",
     "Which rule chooses the active set-based tasks",
     Holds::choice::<ModeRule>(),
-    r#""border""#,
+    r#""cone""#,
 );
 pub(super) const BORDER: Key = Key::new(
     "border",
     "",
     "What happens at the border of a set between samples",
     Holds::choice::<Border>(),
-    r#""freeze""#,
+    r#""land""#,
 );
 pub(super) const RECURSION: Key = Key::new(
     "recursion",
     "",
     "How the velocities of lower tasks are fitted under the higher ones",
     Holds::choice::<Recursion>(),
-    r#""chiaverini""#,
+    r#""siciliano-slotine""#,
 );
 pub(super) const EXCLUSIVE: Key = Key::new(
     "exclusive",
     "",
-    "Groups of set-based tasks of which no two can ever be active together; such modes are struck \
-     out",
+    "Groups of set-based tasks of which no two can ever be active together; the rules `paper` and \
+     `border` strike such modes out, `cone` only leaves them without a number",
     Holds::NameGroups,
     r#"[["pillar", "table"]]"#,
 );

@@ -192,14 +192,7 @@ impl<'a> Table<'a> {
             let choice = T::from_name(name);
             if choice.is_none() {
                 let names = T::ALL.iter().map(|(value, _)| value.name());
-                let (what, help) = if T::NOT_YET.contains(&name) {
-                    (
-                        format!("this version does not have {name:?} yet"),
-                        format!("it has {}", one_of(names)),
-                    )
-                } else {
-                    unknown_name(name, names)
-                };
+                let (what, help) = unknown_name(name, names);
                 found.add(value.span(), &*value.path, what, help);
             }
             choice

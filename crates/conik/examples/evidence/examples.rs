@@ -4,8 +4,10 @@ use crate::combo::Combo;
 use crate::course::{Course, bench, course, deadlock};
 use crate::paper::{fitted, thesis};
 
-/// Where the runs start, and for how long they go [s].
-pub const STARTS: [(&str, fn() -> [f64; 6], u32); 4] = [
+/// A name, where the run starts [rad], and for how long it goes [s].
+type Start = (&'static str, fn() -> [f64; 6], u32);
+
+const STARTS: [Start; 4] = [
     ("thesis", thesis, 60),
     ("fitted", fitted, 60),
     ("bench", bench, 70),

@@ -46,7 +46,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         table::print_head(arguments.scenes, arguments.seed);
         for combo in &arguments.combos {
             let outcomes = campaign(&arguments, *combo);
-            table::print_row(*combo, outcomes);
+            table::print_row(*combo, &outcomes);
         }
     }
     Ok(())

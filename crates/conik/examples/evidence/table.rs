@@ -109,7 +109,7 @@ pub fn print_head(scenes: u64, seed: u64) {
     println!("|---|{}", "---:|".repeat(columns.len() - 1));
 }
 
-pub fn print_row(combo: Combo, outcomes: Vec<(Scene, Outcome)>) {
+pub fn print_row(combo: Combo, outcomes: &[(Scene, Outcome)]) {
     let n = outcomes.len();
     let count = |test: &dyn Fn(&Outcome) -> bool| outcomes.iter().filter(|(_, o)| test(o)).count();
     let sorted = |value: &dyn Fn(&Outcome) -> f64| -> Vec<f64> {
@@ -140,7 +140,7 @@ pub fn print_row(combo: Combo, outcomes: Vec<(Scene, Outcome)>) {
         times.iter().sum::<f64>() / times.len().max(1) as f64
     };
     let mean_error = outcomes.iter().map(|(_, o)| o.final_error).sum::<f64>() / n as f64;
-    let worst = |is_kind: &dyn Fn(Measure) -> bool| worst_of_kind(&outcomes, is_kind);
+    let worst = |is_kind: &dyn Fn(Measure) -> bool| worst_of_kind(outcomes, is_kind);
     let cells = [
         format!("`{combo}`"),
         count(&|o| o.worst() <= ROUNDING && o.worsened <= 0.0).to_string(),
@@ -168,8 +168,8 @@ pub fn print_row(combo: Combo, outcomes: Vec<(Scene, Outcome)>) {
             at(&accelerations, 0.9)
         ),
         format!("{:.2}", at(&steps, 0.5)),
-        count_most(&outcomes, |o| o.most_pivots),
-        count_most(&outcomes, |o| o.most_kinematics),
+        count_most(outcomes, |o| o.most_pivots),
+        count_most(outcomes, |o| o.most_kinematics),
     ];
     println!("| {} |", cells.join(" | "));
     let slowest = outcomes.iter().map(|(_, o)| o.times[1]).max();

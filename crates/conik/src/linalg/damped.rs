@@ -13,7 +13,7 @@
 
 use alloc::vec::Vec;
 
-use super::symmetric::{cholesky, eigenvectors, solve_lower, solve_lower_transposed};
+use super::symmetric::{eigenvectors, factor, solve};
 use super::{add_scaled, dot};
 use crate::real::sqrt;
 
@@ -70,7 +70,7 @@ impl Damped {
     /// Whether every singular value of the rows is at least ε, so that nothing is damped.
     pub(crate) fn is_regular(&mut self, rows: &[f64]) -> bool {
         self.fill_gram(rows, -SINGULAR * SINGULAR);
-        cholesky(&mut self.gram, self.count)
+        factor(&mut self.gram, self.count)
     }
 
     /// x += the solution for rows all of whose directions are undamped: Aᵀ (A Aᵀ + l₀² I)⁻¹ g.
@@ -79,9 +79,8 @@ impl Damped {
         let n = self.count;
         self.rhs[..n].copy_from_slice(g);
         // Positive definite by the shift, unless a task gave NaN, which shows in x.
-        cholesky(&mut self.gram, n);
-        solve_lower(&self.gram, n, &mut self.rhs[..n]);
-        solve_lower_transposed(&self.gram, n, &mut self.rhs[..n]);
+        factor(&mut self.gram, n);
+        solve(&self.gram, n, &mut self.rhs[..n]);
         for (row, y) in rows.chunks_exact(self.dof).zip(&self.rhs[..n]) {
             add_scaled(x, *y, row);
         }
@@ -107,9 +106,8 @@ impl Damped {
             lambda_squared * (1.0 - least / (SINGULAR * SINGULAR)).max(0.0) + STRICT * STRICT;
         self.fill_gram(rows, shift);
         self.rhs[..n].copy_from_slice(g);
-        cholesky(&mut self.gram, n);
-        solve_lower(&self.gram, n, &mut self.rhs[..n]);
-        solve_lower_transposed(&self.gram, n, &mut self.rhs[..n]);
+        factor(&mut self.gram, n);
+        solve(&self.gram, n, &mut self.rhs[..n]);
         for (row, y) in rows.chunks_exact(self.dof).zip(&self.rhs[..n]) {
             add_scaled(x, *y, row);
         }
@@ -211,17 +209,19 @@ impl Damped {
         for (direction, weight) in self.directions.chunks_exact(dof).zip(&self.weights) {
             add_outer(direction, -lambda_squared * weight);
         }
-        cholesky(hessian, n);
-        // B = L⁻¹ span, row by row.
+        factor(hessian, n);
+        // B = D^(−1/2) L⁻¹ span, row by row.
         basis[..n * dof].copy_from_slice(&span[..n * dof]);
         for i in 0..n {
             let (done, row) = basis.split_at_mut(i * dof);
-            let row = &mut row[..dof];
             for (earlier, share) in done.chunks_exact(dof).zip(&hessian[i * n..]) {
-                add_scaled(row, -share, earlier);
+                add_scaled(&mut row[..dof], -share, earlier);
             }
-            for value in row.iter_mut() {
-                *value /= hessian[i * n + i];
+        }
+        for (i, row) in basis[..n * dof].chunks_exact_mut(dof).enumerate() {
+            let scale = sqrt(hessian[i * n + i]);
+            for value in row {
+                *value *= scale;
             }
         }
     }

@@ -103,6 +103,22 @@ impl DualActiveSet {
         &self.multipliers[..self.active.len()]
     }
 
+    /// How far beyond its bound an active row would go [unit/s] if it alone were let go: its multiplier
+    /// over the diagonal of (A H⁻¹ Aᵀ)⁻¹.
+    pub(crate) fn rate_if_released(&mut self, k: usize) -> f64 {
+        let rank = self.active.len();
+        // w = R⁻ᵀ eₖ, forward; the diagonal is |w|².
+        for j in 0..rank {
+            let known: f64 = (0..j)
+                .map(|i| self.factor[j * self.dof + i] * self.scratch[i])
+                .sum();
+            let unit = if j == k { 1.0 } else { 0.0 };
+            self.scratch[j] = (unit - known) / self.factor[j * self.dof + j];
+        }
+        let row = &self.scratch[..rank];
+        self.multipliers[k] / dot(row, row)
+    }
+
     /// Turns `x` from the free minimiser into the constrained one. `pivots` is what is left of the
     /// cap. The basis must have been set since the last call, which uses it up.
     pub(crate) fn solve(
@@ -298,3 +314,6 @@ impl DualActiveSet {
         }
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -6,8 +6,8 @@
 
 use alloc::vec::Vec;
 
-use super::symmetric::{cholesky, solve_lower, solve_lower_transposed};
-use super::{ENOUGH_LENGTH_KEPT, NO_LENGTH, RANK_TOLERANCE, add_scaled, dot};
+use super::symmetric::{factor, solve};
+use super::{COMMON, ENOUGH_LENGTH_KEPT, NO_LENGTH, RANK_TOLERANCE, add_scaled, dot};
 use crate::real::sqrt;
 
 /// Jacobians of at most this many rows may take the short way by the normal equations.
@@ -45,44 +45,16 @@ impl MinimumNorm {
 
     /// x ← J⁺ s. Returns the rank of J.
     pub(crate) fn solve(&mut self, jacobian: &[f64], s: &[f64], x: &mut [f64]) -> usize {
-        if self.solve_normal(jacobian, s, x) {
+        // The same code each time; known sizes let the compiler unroll it.
+        let is_solved = match (s.len(), self.dof) {
+            (1, COMMON) => solve_normal(1, COMMON, jacobian, s, x),
+            (3, COMMON) => solve_normal(3, COMMON, jacobian, s, x),
+            (count, dof) => count <= SHORT && solve_normal(count, dof, jacobian, s, x),
+        };
+        if is_solved {
             return s.len();
         }
         self.solve_orthogonal(jacobian, s, x)
-    }
-
-    /// x ← Jᵀ (J Jᵀ)⁻¹ s, the short way. `false` unless J is so well conditioned that nothing is lost
-    /// by squaring it.
-    fn solve_normal(&mut self, jacobian: &[f64], s: &[f64], x: &mut [f64]) -> bool {
-        let (dof, count) = (self.dof, s.len());
-        if count > SHORT {
-            return false;
-        }
-        let mut gram = [0.0; SHORT * SHORT];
-        for (i, row) in jacobian.chunks_exact(dof).enumerate() {
-            for (j, other) in jacobian.chunks_exact(dof).enumerate().take(i + 1) {
-                gram[i * count + j] = dot(row, other);
-            }
-        }
-        let largest = (0..count).map(|i| gram[i * count + i]).fold(0.0, f64::max);
-        if !cholesky(&mut gram, count) {
-            return false;
-        }
-        let least = (0..count)
-            .map(|i| gram[i * count + i])
-            .fold(f64::INFINITY, f64::min);
-        if !(least * least > WELL_CONDITIONED * largest) {
-            return false;
-        }
-        let y = &mut self.rhs[..count];
-        y.copy_from_slice(s);
-        solve_lower(&gram, count, y);
-        solve_lower_transposed(&gram, count, y);
-        x.fill(0.0);
-        for (row, y) in jacobian.chunks_exact(dof).zip(y.iter()) {
-            add_scaled(x, *y, row);
-        }
-        true
     }
 
     /// x ← J⁺ s by the complete orthogonal decomposition.
@@ -209,6 +181,38 @@ impl MinimumNorm {
             self.rhs[k] = (projected[k] - known) / upper[k][k];
         }
     }
+}
+
+/// x ← Jᵀ (J Jᵀ)⁻¹ s, the short way. `false` unless J is so well conditioned that nothing is lost by
+/// squaring it.
+#[inline(always)]
+#[allow(clippy::inline_always, reason = "for the sake of known sizes")]
+fn solve_normal(count: usize, dof: usize, jacobian: &[f64], s: &[f64], x: &mut [f64]) -> bool {
+    let (jacobian, x) = (&jacobian[..count * dof], &mut x[..dof]);
+    let row = |i: usize| &jacobian[i * dof..][..dof];
+    let mut gram = [0.0; SHORT * SHORT];
+    let mut largest = 0.0_f64;
+    for i in 0..count {
+        for j in 0..=i {
+            gram[i * count + j] = dot(row(i), row(j));
+        }
+        largest = largest.max(gram[i * count + i]);
+    }
+    if !factor(&mut gram, count) {
+        return false;
+    }
+    let largest_inverse = (0..count).map(|i| gram[i * count + i]).fold(0.0, f64::max);
+    if !(largest_inverse * WELL_CONDITIONED * largest < 1.0) {
+        return false;
+    }
+    let mut y = [0.0; SHORT];
+    y[..count].copy_from_slice(&s[..count]);
+    solve(&gram, count, &mut y[..count]);
+    x.fill(0.0);
+    for i in 0..count {
+        add_scaled(x, y[i], row(i));
+    }
+    true
 }
 
 #[cfg(test)]

@@ -56,6 +56,33 @@ pub(crate) fn add_scaled(y: &mut [f64], factor: f64, x: &[f64]) {
     }
 }
 
+/// `y = x`
+#[inline]
+pub(crate) fn copy(y: &mut [f64], x: &[f64]) {
+    if let (Ok(y), Ok(x)) = (
+        <&mut [f64; COMMON]>::try_from(&mut *y),
+        <&[f64; COMMON]>::try_from(x),
+    ) {
+        *y = *x;
+        return;
+    }
+    y.copy_from_slice(x);
+}
+
+/// Index of the first number that is not finite.
+#[inline]
+pub(crate) fn not_finite(values: &[f64]) -> Option<usize> {
+    // Almost always there is none, which is found out without a branch for each number.
+    let is_any = values
+        .iter()
+        .fold(false, |found, value| found | !value.is_finite());
+    if is_any {
+        values.iter().position(|value| !value.is_finite())
+    } else {
+        None
+    }
+}
+
 /// Index of the longest row.
 fn longest(rows: &[f64], dof: usize) -> usize {
     let mut best = (0, 0.0);

@@ -7,7 +7,7 @@
 
 use alloc::vec::Vec;
 
-use super::{ENOUGH_LENGTH_KEPT, NO_LENGTH, RANK_TOLERANCE, add_scaled, dot};
+use super::{COMMON, ENOUGH_LENGTH_KEPT, NO_LENGTH, RANK_TOLERANCE, add_scaled, dot};
 use crate::joints::MAX_JOINTS;
 use crate::real::sqrt;
 
@@ -96,23 +96,25 @@ impl RowSpace {
     }
 
     /// Adds one row. `false` if it depends on the rows before it and so adds nothing.
+    #[inline]
     pub(crate) fn push(&mut self, row: &[f64]) -> bool {
-        self.block[..self.dof].copy_from_slice(row);
-        project_out(
-            &self.basis[..self.rank * self.dof],
-            &mut self.block[..self.dof],
-        );
-        self.push_from_block(0, sqrt(dot(row, row)))
+        let is_new = if self.dof == COMMON {
+            push_row(COMMON, &mut self.basis, self.rank, row)
+        } else {
+            push_row(self.dof, &mut self.basis, self.rank, row)
+        };
+        self.rank += usize::from(is_new);
+        is_new
     }
 
     /// Adds a block of rows, at each turn the one of which most is left, so that the rank of the
     /// block is decided by its best-conditioned rows.
     pub(crate) fn push_block(&mut self, rows: &[f64]) {
         let (dof, count) = (self.dof, rows.len() / self.dof);
-        let mut lengths = [0.0; MAX_JOINTS];
+        let mut squares = [0.0; MAX_JOINTS];
         self.block[..rows.len()].copy_from_slice(rows);
-        for (row, length) in self.block.chunks_exact_mut(dof).zip(&mut lengths[..count]) {
-            *length = sqrt(dot(row, row));
+        for (row, squared) in self.block.chunks_exact_mut(dof).zip(&mut squares[..count]) {
+            *squared = dot(row, row);
             project_out(&self.basis[..self.rank * dof], row);
         }
         for next in 0..count {
@@ -123,9 +125,9 @@ impl RowSpace {
             if best != next {
                 let (before, from_best) = self.block.split_at_mut(best * dof);
                 before[next * dof..][..dof].swap_with_slice(&mut from_best[..dof]);
-                lengths.swap(next, best);
+                squares.swap(next, best);
             }
-            if self.push_from_block(next, lengths[next]) {
+            if self.push_from_block(next, squares[next]) {
                 let newest = &self.basis[(self.rank - 1) * dof..][..dof];
                 for row in self.block[(next + 1) * dof..count * dof].chunks_exact_mut(dof) {
                     project_out(newest, row);
@@ -135,26 +137,17 @@ impl RowSpace {
     }
 
     /// Takes row `i` of the block, projected already, into the basis unless too little is left of
-    /// its original `length`.
-    fn push_from_block(&mut self, i: usize, length: f64) -> bool {
-        if self.rank == self.dof || !(length > NO_LENGTH) {
+    /// its original length, given `squared`.
+    fn push_from_block(&mut self, i: usize, squared: f64) -> bool {
+        if self.rank == self.dof {
             return false;
         }
         let (basis, free) = self.basis.split_at_mut(self.rank * self.dof);
-        let row = &mut self.block[i * self.dof..][..self.dof];
-        let mut left = sqrt(dot(row, row));
-        if left < ENOUGH_LENGTH_KEPT * length {
-            project_out(basis, row);
-            left = sqrt(dot(row, row));
-        }
-        if !(left > RANK_TOLERANCE * length) {
-            return false;
-        }
-        for (new, value) in free.iter_mut().zip(row.iter()) {
-            *new = value / left;
-        }
-        self.rank += 1;
-        true
+        let new = &mut free[..self.dof];
+        new.copy_from_slice(&self.block[i * self.dof..][..self.dof]);
+        let is_new = normalise(basis, new, squared);
+        self.rank += usize::from(is_new);
+        is_new
     }
 
     /// v ← N v: takes out of `v` what would move any of the stacked rows.
@@ -162,6 +155,42 @@ impl RowSpace {
     pub(crate) fn project_out(&self, v: &mut [f64]) {
         project_out(&self.basis[..self.rank * self.dof], v);
     }
+}
+
+/// Writes what is left of `row` beside `rank` orthonormal rows after them, at length 1. `false` if that
+/// is too little.
+#[inline(always)]
+#[allow(clippy::inline_always, reason = "for the sake of known sizes")]
+fn push_row(dof: usize, basis: &mut [f64], rank: usize, row: &[f64]) -> bool {
+    if rank == dof {
+        return false;
+    }
+    let (basis, free) = basis.split_at_mut(rank * dof);
+    let (row, new) = (&row[..dof], &mut free[..dof]);
+    new.copy_from_slice(row);
+    project_out(basis, new);
+    normalise(basis, new, dot(row, row))
+}
+
+/// Brings a projected row to length 1. `false` if too little is left of its original length.
+#[inline]
+fn normalise(basis: &[f64], row: &mut [f64], original_squared: f64) -> bool {
+    if !(original_squared > NO_LENGTH * NO_LENGTH) {
+        return false;
+    }
+    let mut squared = dot(row, row);
+    if squared < ENOUGH_LENGTH_KEPT * ENOUGH_LENGTH_KEPT * original_squared {
+        project_out(basis, row);
+        squared = dot(row, row);
+    }
+    if !(squared > RANK_TOLERANCE * RANK_TOLERANCE * original_squared) {
+        return false;
+    }
+    let scale = 1.0 / sqrt(squared);
+    for value in row {
+        *value *= scale;
+    }
+    true
 }
 
 fn largest(values: &[f64]) -> usize {
@@ -176,9 +205,16 @@ fn largest(values: &[f64]) -> usize {
 
 #[inline]
 fn project_out(basis: &[f64], v: &mut [f64]) {
-    for row in basis.chunks_exact(v.len()) {
-        let along = dot(row, v);
-        add_scaled(v, -along, row);
+    if v.len() == COMMON {
+        for row in basis.as_chunks::<COMMON>().0 {
+            let along = dot(row, v);
+            add_scaled(v, -along, row);
+        }
+    } else {
+        for row in basis.chunks_exact(v.len()) {
+            let along = dot(row, v);
+            add_scaled(v, -along, row);
+        }
     }
 }
 

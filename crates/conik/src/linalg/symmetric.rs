@@ -1,45 +1,51 @@
-//! Symmetric matrices: Cholesky factors and, for the rare case, eigenvectors.
+//! Symmetric matrices: factors and, for the rare case, eigenvectors.
 
 use crate::real::sqrt;
 
-/// Factors the lower triangle of a symmetric n×n matrix in place, A = L Lᵀ. `false` if it is not
-/// positive definite.
-pub(crate) fn cholesky(a: &mut [f64], n: usize) -> bool {
-    for j in 0..n {
-        let (above, row) = a.split_at_mut(j * n);
+/// Factors the lower triangle of a symmetric n×n matrix in place, A = L D Lᵀ: L, whose diagonal is 1,
+/// below the diagonal, and D⁻¹ on it. `false` if A is not positive definite.
+#[inline(always)]
+#[allow(clippy::inline_always, reason = "for the sake of known sizes")]
+pub(crate) fn factor(a: &mut [f64], n: usize) -> bool {
+    for i in 0..n {
+        let (above, row) = a.split_at_mut(i * n);
         let row = &mut row[..n];
-        for i in 0..j {
-            let earlier = &above[i * n..][..n];
-            let known: f64 = row[..i].iter().zip(&earlier[..i]).map(|(x, y)| x * y).sum();
-            row[i] = (row[i] - known) / earlier[i];
+        // First L D, then, with the pivot, L.
+        for j in 0..i {
+            let earlier = &above[j * n..][..n];
+            for k in 0..j {
+                row[j] -= row[k] * earlier[k];
+            }
         }
-        let pivot = row[j] - row[..j].iter().map(|x| x * x).sum::<f64>();
+        let mut pivot = row[i];
+        for j in 0..i {
+            let scaled = row[j];
+            row[j] *= above[j * n + j];
+            pivot -= scaled * row[j];
+        }
         if !(pivot > 0.0) {
             return false;
         }
-        row[j] = sqrt(pivot);
+        row[i] = 1.0 / pivot;
     }
     true
 }
 
-/// x ← L⁻¹ x
-pub(crate) fn solve_lower(l: &[f64], n: usize, x: &mut [f64]) {
-    for i in 0..n {
-        let known: f64 = l[i * n..i * n + i]
-            .iter()
-            .zip(x.iter())
-            .map(|(l, x)| l * x)
-            .sum();
-        x[i] = (x[i] - known) / l[i * n + i];
-    }
-}
-
-/// x ← L⁻ᵀ x
-pub(crate) fn solve_lower_transposed(l: &[f64], n: usize, x: &mut [f64]) {
-    for i in (0..n).rev() {
-        x[i] /= l[i * n + i];
+/// x ← A⁻¹ x, from the factor of A.
+#[inline(always)]
+#[allow(clippy::inline_always, reason = "for the sake of known sizes")]
+pub(crate) fn solve(factor: &[f64], n: usize, x: &mut [f64]) {
+    for i in 1..n {
         for k in 0..i {
-            x[k] -= l[i * n + k] * x[i];
+            x[i] -= factor[i * n + k] * x[k];
+        }
+    }
+    for i in 0..n {
+        x[i] *= factor[i * n + i];
+    }
+    for i in (0..n).rev() {
+        for k in i + 1..n {
+            x[i] -= factor[k * n + i] * x[k];
         }
     }
 }
@@ -127,15 +133,14 @@ mod tests {
         }
 
         #[test]
-        fn cholesky_solves(rows in prop::collection::vec(-1.0..1.0f64, 9), x in prop::collection::vec(-1.0..1.0f64, 3)) {
+        fn factors_solve(rows in prop::collection::vec(-1.0..1.0f64, 9), x in prop::collection::vec(-1.0..1.0f64, 3)) {
             let mut a = gram(&rows, 3);
             for i in 0..3 {
                 a[i * 3 + i] += 0.1;
             }
             let mut y: Vec<f64> = (0..3).map(|i| crate::linalg::dot(&a[i * 3..][..3], &x)).collect();
-            prop_assert!(cholesky(&mut a, 3));
-            solve_lower(&a, 3, &mut y);
-            solve_lower_transposed(&a, 3, &mut y);
+            prop_assert!(factor(&mut a, 3));
+            solve(&a, 3, &mut y);
             for (x, y) in x.iter().zip(&y) {
                 prop_assert!((x - y).abs() < 1e-12);
             }
@@ -143,8 +148,8 @@ mod tests {
     }
 
     #[test]
-    fn indefinite_matrices_have_no_cholesky_factor() {
-        assert!(!cholesky(&mut [1.0, 2.0, 2.0, 1.0], 2));
-        assert!(!cholesky(&mut [f64::NAN], 1));
+    fn indefinite_matrices_have_no_factor() {
+        assert!(!factor(&mut [1.0, 2.0, 2.0, 1.0], 2));
+        assert!(!factor(&mut [f64::NAN], 1));
     }
 }

@@ -133,6 +133,13 @@ impl LevelProgram {
             .zip(self.solver.multipliers().iter().copied())
     }
 
+    /// The sides, by index, that bind in the last solution, with how far beyond its bound each would go
+    /// [unit/s] if it alone were let go.
+    pub(crate) fn crossings(&mut self) -> impl Iterator<Item = (usize, f64)> {
+        (0..self.solver.active().len())
+            .map(|k| (self.solver.active()[k], self.solver.rate_if_released(k)))
+    }
+
     /// Siciliano and Slotine's recursion: the free minimiser, and a basis in its weight. `true` if the
     /// minimiser already keeps every side; the basis is then not there.
     fn fit(&mut self, level: &Level<'_>, held: &Held, must_hold: bool) -> bool {

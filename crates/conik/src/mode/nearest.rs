@@ -9,19 +9,21 @@
 //!
 //! A low-priority set is a level of its own. While the velocity of the levels above keeps it, or brings
 //! it closer from outside, it is inactive and only binds the levels below. Otherwise it is active
-//! and asks: inside, to stop at the border; outside, to come back with its gain.
+//! and asks: inside, to stop at the border; outside, to come back with its gain. Once active outside
+//! it stays so until it is inside, or the levels above bring it back as fast as it asks.
 
 use alloc::vec::Vec;
 
 use super::claims::{Claims, Turn};
 use super::level::{Level, LevelProgram};
 use crate::active::ActiveSet;
+use crate::barrier::Barrier;
 use crate::border::Borders;
 use crate::evaluation::Evaluation;
 use crate::linalg::{Solution, dot};
 use crate::real::sqrt;
-use crate::settings::{Border, Recursion, Settings};
-use crate::sides::{Held, Side, Sides, distance_inside, landing_rate};
+use crate::settings::{Recursion, Settings};
+use crate::sides::{Held, Side, Sides};
 use crate::stack::{Goal, Stack};
 use crate::task_id::TaskId;
 
@@ -29,20 +31,16 @@ use crate::task_id::TaskId;
 /// must not release it and hold it again.
 const RELEASE: f64 = 1e-7;
 
-/// The same for a set of low priority, whose rate also changes with what holds the levels above.
+/// The same for a set of low priority, whose rate trembles with what holds the levels above.
 const LOW_RELEASE: f64 = 1e-4;
 
 #[derive(Debug)]
 pub(crate) struct Nearest {
     recursion: Recursion,
-    border: Border,
     period: f64,
     /// The equality tasks, and the sets below the first of them, in list order.
     lower: Vec<TaskId>,
     program: LevelProgram,
-    sides: Sides,
-    /// b, one for each side.
-    bounds: Vec<f64>,
     /// Sides held in the last tick, and in this one so far.
     held_before: Held,
     held: Held,
@@ -52,9 +50,11 @@ pub(crate) struct Nearest {
     /// What the levels above the present one have claimed.
     above: Claims,
     asked: Vec<f64>,
-    /// r: what the level above the present one asked for and did not get.
+    /// r: what the last level asked for and did not get.
     unmet: Vec<f64>,
     returning: Vec<usize>,
+    /// How fast each side would be left if it were let go [unit/s].
+    crossings: Vec<f64>,
     tasks: usize,
 }
 
@@ -62,6 +62,8 @@ pub(crate) struct Nearest {
 pub(crate) struct NearestTick<'a> {
     pub(crate) stack: &'a Stack,
     pub(crate) evaluation: &'a mut Evaluation,
+    /// What the high-priority sets allow. Low-priority ones that are kept add to it.
+    pub(crate) barrier: &'a mut Barrier,
     pub(crate) borders: &'a Borders,
     pub(crate) pivots: &'a mut usize,
 }
@@ -80,27 +82,28 @@ impl Nearest {
             .collect();
         Self {
             recursion: settings.recursion,
-            border: settings.border,
             period: 1.0 / settings.rate_hz,
             program: LevelProgram::new(stack, settings),
-            sides: Sides::new(stack),
-            bounds: Vec::with_capacity(2 * stack.len()),
             held_before: Held::default(),
             held: Held::default(),
             low_active: ActiveSet::EMPTY,
-            above: Claims::new(stack.dof(), max_rows, lower.len(), 1.0 / settings.rate_hz),
-            unmet: Vec::with_capacity(max_rows),
             multipliers: alloc::vec![0.0; 2 * stack.len() * lower.len()],
+            above: Claims::new(stack.dof(), max_rows, lower.len(), 1.0 / settings.rate_hz),
             lower,
             asked: Vec::with_capacity(max_rows),
+            unmet: Vec::with_capacity(max_rows),
             returning: Vec::with_capacity(2 * stack.len()),
+            crossings: alloc::vec![0.0; 2 * stack.len()],
             tasks: stack.len(),
         }
     }
 
     /// The velocity of this tick, and its active sets.
     pub(crate) fn choose(&mut self, tick: &mut NearestTick<'_>, velocity: &mut [f64]) -> ActiveSet {
-        self.begin(tick);
+        self.held_before = core::mem::take(&mut self.held);
+        self.low_active = ActiveSet::EMPTY;
+        self.above.clear();
+        self.crossings.fill(0.0);
         velocity.fill(0.0);
         let mut level_above: Option<usize> = None;
         for place in 0..self.lower.len() {
@@ -112,58 +115,19 @@ impl Nearest {
                 self.claim(tick, previous);
             }
             self.descend(tick, place, velocity);
-            self.unmet.clear();
-            let rows = tick
-                .evaluation
-                .jacobian(tick.stack, task)
-                .chunks_exact(velocity.len());
-            self.unmet.extend(
-                self.asked
-                    .iter()
-                    .zip(rows)
-                    .map(|(asked, row)| asked - dot(row, velocity)),
-            );
         }
-        self.keep_what_does_not_leave(velocity);
+        self.keep_what_does_not_leave(tick.barrier, velocity);
         self.held.tasks().union(&self.low_active)
+    }
+
+    /// How fast a side would be left if it were let go [unit/s]; 0 if it would not.
+    pub(crate) fn crossing(&self, side: Side) -> f64 {
+        self.crossings[side.number()]
     }
 
     /// Sides held by this tick's velocity.
     pub(crate) fn held(&self) -> Held {
         self.held
-    }
-
-    /// Gathers the sides of the high-priority sets.
-    fn begin(&mut self, tick: &mut NearestTick<'_>) {
-        self.held_before = core::mem::take(&mut self.held);
-        self.low_active = ActiveSet::EMPTY;
-        self.above.clear();
-        self.sides.clear();
-        self.bounds.clear();
-        for (task, level) in tick.stack.iter() {
-            if level.interval().is_none() {
-                break;
-            }
-            for is_upper in [false, true] {
-                let side = Side { task, is_upper };
-                let inside = distance_inside(tick.borders, side, tick.evaluation.scalar(task));
-                if let Some(bound) = self.bound(inside) {
-                    self.sides.push(tick.stack, tick.evaluation, side);
-                    self.bounds.push(bound);
-                }
-            }
-        }
-    }
-
-    /// b for a side whose bound is `inside` away; `None` if it binds nothing.
-    fn bound(&self, inside: f64) -> Option<f64> {
-        match self.border {
-            Border::Freeze => (inside <= 0.0).then_some(0.0),
-            Border::Land if inside == f64::INFINITY => None,
-            Border::Land if inside >= 0.0 => Some(landing_rate(inside, self.period).min(0.0)),
-            // Outside a set that had been entered: its bound, or the arm, was moved.
-            Border::Land => Some(landing_rate(inside, self.period)),
-        }
     }
 
     /// What a level asks for, into `asked`. `false` for a low-priority set that asks for nothing; its
@@ -174,42 +138,45 @@ impl Nearest {
             Goal::Equality {
                 desired_rate, gain, ..
             } => {
-                let errors = tick.evaluation.errors().of(task).iter();
-                self.asked.extend(
-                    errors
-                        .zip(desired_rate)
-                        .map(|(error, rate)| rate + gain * error),
-                );
+                let errors = tick.evaluation.errors().of(task);
+                let drifts = tick.evaluation.drifts().of(task);
+                let components = errors.iter().zip(desired_rate).zip(drifts);
+                self.asked
+                    .extend(components.map(|((error, rate), drift)| rate + gain * error - drift));
                 true
             }
-            Goal::Set { interval, gain } => {
+            Goal::Set { interval, gain, .. } => {
                 let (interval, gain) = (*interval, gain.unwrap_or(0.0));
                 let sigma = tick.evaluation.scalar(task);
                 let rate = dot(tick.evaluation.jacobian(tick.stack, task), velocity);
-                let lower = (false, sigma - interval.min, rate);
-                let upper = (true, interval.max - sigma, -rate);
-                for (is_upper, inside, rate) in [lower, upper] {
-                    let side = Side { task, is_upper };
-                    let kept = if inside < 0.0 {
-                        0.0
+                for side in Side::both(task) {
+                    let inside = side.inside(&interval, sigma);
+                    let bound_rate = tick.borders.bound_rate(side);
+                    let approaching = side.inward(bound_rate - tick.evaluation.drift(task));
+                    let (rest, back) = if inside < 0.0 {
+                        (0.0, -gain * inside)
                     } else {
-                        -inside / self.period
+                        (-inside / self.period, 0.0)
                     };
-                    let asked = if inside < 0.0 { -gain * inside } else { kept };
-                    let enough = if self.held_before.contains(side) {
+                    let kept = approaching + rest;
+                    let asked = kept + back;
+                    // Not released as soon as the others cease to carry it out: they may do so by turns.
+                    let needed = if self.held_before.contains(side) {
                         asked + LOW_RELEASE
                     } else {
                         kept
                     };
-                    if rate < enough {
+                    let rate = side.inward(rate);
+                    if rate < needed {
                         self.held.insert(side);
                         self.low_active.insert(task);
-                        self.asked.push(if is_upper { -asked } else { asked });
+                        self.asked.push(side.inward(asked));
+                        self.crossings[side.number()] = (kept - rate).max(0.0);
                         return true;
                     }
                     if kept > f64::NEG_INFINITY {
-                        self.sides.push(tick.stack, tick.evaluation, side);
-                        self.bounds.push(kept.min(rate));
+                        tick.barrier
+                            .push(tick.stack, tick.evaluation, side, kept.min(rate));
                     }
                 }
                 false
@@ -222,16 +189,16 @@ impl Nearest {
     fn descend(&mut self, tick: &mut NearestTick<'_>, place: usize, velocity: &mut [f64]) {
         let task = self.lower[place];
         tick.evaluation.jacobian(tick.stack, task);
-        let (stack, evaluation) = (tick.stack, &*tick.evaluation);
+        let (evaluation, barrier) = (&*tick.evaluation, &*tick.barrier);
         let multipliers = &self.multipliers[place * 2 * self.tasks..];
         let counting_on = |held: &Held| Level {
             jacobian: evaluation.known_jacobian(task),
             asked: &self.asked,
             from: velocity,
             above: &self.above,
-            sides: &self.sides,
-            bounds: &self.bounds,
-            push_back: push_back(stack, evaluation, &self.sides, held, multipliers),
+            sides: &barrier.sides,
+            bounds: &barrier.bounds,
+            push_back: push_back(tick.stack, evaluation, barrier, held, multipliers),
         };
         let all = self.held_before.union(&self.held);
         let level = counting_on(&all);
@@ -243,11 +210,11 @@ impl Nearest {
             if remaining != all {
                 let without = counting_on(&remaining);
                 solution = self.program.solve(&without, &remaining, &[], tick.pivots);
-                let binds = |i: &usize| all.contains(self.sides.get(*i));
+                let binding = self.program.binding().map(|(i, _)| i);
                 self.returning.clear();
                 self.returning
-                    .extend(self.program.binding().map(|(i, _)| i).filter(binds));
-                let returns = |&i: &usize| !remaining.contains(self.sides.get(i));
+                    .extend(binding.filter(|&i| all.contains(level.sides.get(i))));
+                let returns = |&i: &usize| !remaining.contains(level.sides.get(i));
                 if solution == Solution::Optimal && self.returning.iter().any(returns) {
                     solution = self
                         .program
@@ -257,54 +224,63 @@ impl Nearest {
         }
         if solution == Solution::Optimal {
             velocity.copy_from_slice(self.program.velocity());
-            self.remember(place);
+            self.remember(place, &barrier.sides);
         }
+        let rows = evaluation.known_jacobian(task).chunks_exact(velocity.len());
+        let met = rows.map(|row| dot(row, velocity));
+        self.unmet.clear();
+        self.unmet
+            .extend(self.asked.iter().zip(met).map(|(asked, met)| asked - met));
     }
 
-    /// A level that has had its turn claims its motions from those below. `self.unmet` is its r.
+    /// A level that has had its turn claims its motions from those below.
     fn claim(&mut self, tick: &mut NearestTick<'_>, place: usize) {
         let task = self.lower[place];
+        let (evaluation, barrier) = (&*tick.evaluation, &*tick.barrier);
+        let jacobian = evaluation.known_jacobian(task);
         if self.recursion == Recursion::SicilianoSlotine {
-            tick.evaluation.jacobian(tick.stack, task);
-            let evaluation = &*tick.evaluation;
             let multipliers = &self.multipliers[place * 2 * self.tasks..];
+            let pushing = || {
+                let sides = barrier.sides.iter();
+                sides.filter(|(side, _)| multipliers[side.number()] > 0.0)
+            };
             let turn = Turn {
-                jacobian: evaluation.known_jacobian(task),
+                jacobian,
                 unmet: sqrt(dot(&self.unmet, &self.unmet)),
             };
-            let pushes = |(side, row): (Side, _)| (multipliers[side.number()] > 0.0).then_some(row);
-            let pushing = self.sides.iter().filter_map(pushes);
-            self.above.claim_rest(&turn, pushing, |curvature| {
+            let rows = pushing().map(|(_, row)| row);
+            self.above.claim_rest(&turn, rows, |curvature| {
                 let mut add = |task: TaskId, weights: &[f64]| {
                     let task = tick.stack[task].task();
                     task.add_curvature(evaluation.kinematics(), weights, curvature);
                 };
                 add(task, &self.unmet);
-                for (side, _) in self.sides.iter() {
-                    let push = multipliers[side.number()];
-                    if push > 0.0 {
-                        add(side.task, &[if side.is_upper { -push } else { push }]);
-                    }
+                for (side, _) in pushing() {
+                    add(side.task, &[side.inward(multipliers[side.number()])]);
                 }
             });
         }
-        self.above.claim(tick.evaluation.jacobian(tick.stack, task));
+        self.above.claim(jacobian);
     }
 
     /// Which sides bind, and how hard.
-    fn remember(&mut self, place: usize) {
+    fn remember(&mut self, place: usize, sides: &Sides) {
         let memory = &mut self.multipliers[place * 2 * self.tasks..][..2 * self.tasks];
         memory.fill(0.0);
         for (i, multiplier) in self.program.binding() {
-            let side = self.sides.get(i);
+            let side = sides.get(i);
             self.held.insert(side);
             memory[side.number()] = multiplier;
+        }
+        for (i, rate) in self.program.crossings() {
+            let crossing = &mut self.crossings[sides.get(i).number()];
+            *crossing = crossing.max(rate);
         }
     }
 
     /// A side that was held and does not move inward stays held, whatever its multiplier.
-    fn keep_what_does_not_leave(&mut self, velocity: &[f64]) {
-        for ((side, row), bound) in self.sides.iter().zip(&self.bounds) {
+    fn keep_what_does_not_leave(&mut self, barrier: &Barrier, velocity: &[f64]) {
+        for (side, row, bound) in barrier.iter() {
             if self.held_before.contains(side) && dot(row, velocity) <= bound + RELEASE {
                 self.held.insert(side);
             }
@@ -316,17 +292,16 @@ impl Nearest {
 fn push_back(
     stack: &Stack,
     evaluation: &Evaluation,
-    sides: &Sides,
+    barrier: &Barrier,
     held: &Held,
     multipliers: &[f64],
 ) -> f64 {
-    let pushes = sides
-        .iter()
-        .filter(|(side, _)| multipliers[side.number()] != 0.0 && held.contains(*side))
-        .map(|(side, _)| {
-            let bend = stack[side.task].task().bend(evaluation.scalar(side.task));
-            multipliers[side.number()].abs() * bend
-        });
+    let pushing = |side: &Side| multipliers[side.number()] != 0.0 && held.contains(*side);
+    let sides = barrier.sides.iter().map(|(side, _)| side);
+    let pushes = sides.filter(pushing).map(|side| {
+        let bend = stack[side.task].task().bend(evaluation.scalar(side.task));
+        multipliers[side.number()].abs() * bend
+    });
     pushes.sum()
 }
 

@@ -39,9 +39,14 @@ impl ModeOrder {
         Self { sets }
     }
 
-    /// 1-based number of the mode in which just these tasks are active. `None` if it does not fit
-    /// 64 bits, or if the exclusions are too entangled to be counted.
+    /// 1-based number of the mode in which just these tasks are active. `None` if it is struck out
+    /// (the rule `Cone` heeds no exclusions), if it does not fit 64 bits, or if the exclusions are
+    /// too entangled to be counted.
     pub fn number(&self, active: &ActiveSet) -> Option<u64> {
+        let members = || self.sets.iter().filter(|set| active.contains(set.id));
+        if members().any(|set| set.excluded.intersects(active)) {
+            return None;
+        }
         let size = active.len();
         let mut count = Count {
             sets: &self.sets,
@@ -69,7 +74,8 @@ impl ModeOrder {
         before.checked_add(1)
     }
 
-    /// Number of modes; `None` under the same conditions as for [`number`](Self::number).
+    /// Number of modes; `None` if it does not fit 64 bits, or if the exclusions are too entangled to
+    /// be counted.
     pub fn count(&self) -> Option<u64> {
         let mut count = Count {
             sets: &self.sets,

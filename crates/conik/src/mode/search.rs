@@ -23,7 +23,8 @@ use crate::evaluation::Evaluation;
 use crate::hierarchy::Hierarchy;
 use crate::linalg::dot;
 use crate::settings::{ModeRule, Settings};
-use crate::stack::Stack;
+use crate::sides::Side;
+use crate::stack::{Goal, Stack};
 use crate::task_id::TaskId;
 
 /// A task that changes slower than this [unit/s] counts as one that stands still: a frozen task
@@ -35,10 +36,16 @@ pub(crate) struct ModeSearch {
     hierarchy: Hierarchy,
     rule: ModeRule,
     sets: Vec<TaskId>,
+    /// The sets above the first equality task.
+    high_priority: ActiveSet,
+    /// The sets of the mode at hand.
+    active: ActiveSet,
     /// Sets that the rule allows to be active this tick, in list order.
     candidates: Vec<TaskId>,
     /// Sets at or outside their border this tick.
     at_border: Vec<TaskId>,
+    /// How fast each task was left in the last mode that was refused for it [unit/s].
+    leaving: Vec<f64>,
     evaluated: usize,
 }
 
@@ -50,6 +57,34 @@ struct Tick<'a> {
     velocity: &'a mut [f64],
 }
 
+impl Tick<'_> {
+    /// J q̇ of a frozen set: zero, but for a bound or a task that moves by itself, and for a set that
+    /// recovers from outside.
+    fn frozen_rate(&self, task: TaskId) -> f64 {
+        let sigma = self.evaluation.scalar(task);
+        let border = self.borders.sides_at(task, sigma).next();
+        let bound_rate = border.map_or(0.0, |side| {
+            self.borders.bound_rate(side) + side.inward(self.recovery(task, side, sigma))
+        });
+        bound_rate - self.evaluation.drift(task)
+    }
+
+    /// How fast a frozen set is to come back to a side that it is outside of.
+    fn recovery(&self, task: TaskId, side: Side, sigma: f64) -> f64 {
+        match self.stack[task].goal() {
+            Goal::Set {
+                interval,
+                recovery: Some(speed),
+                ..
+            } => {
+                let outside = -side.inside(interval, sigma);
+                speed.min(outside.max(0.0) / self.borders.period())
+            }
+            _ => 0.0,
+        }
+    }
+}
+
 impl ModeSearch {
     pub(crate) fn new(stack: &Stack, settings: &Settings) -> Self {
         let sets: Vec<TaskId> = stack
@@ -59,12 +94,24 @@ impl ModeSearch {
             .collect();
         Self {
             hierarchy: Hierarchy::new(stack, settings),
+            high_priority: sets
+                .iter()
+                .copied()
+                .filter(|&task| stack.is_high_priority(task))
+                .collect(),
+            active: ActiveSet::EMPTY,
             candidates: Vec::with_capacity(sets.len()),
             at_border: Vec::with_capacity(sets.len()),
+            leaving: alloc::vec![0.0; stack.len()],
             sets,
             rule: settings.mode_rule,
             evaluated: 0,
         }
+    }
+
+    /// How fast a task on its border would be left if it were let go [unit/s]; 0 if it would not.
+    pub(crate) fn leaving(&self, task: TaskId) -> f64 {
+        self.leaving[task.index()]
     }
 
     /// How many modes the last search computed a velocity of.
@@ -85,7 +132,7 @@ impl ModeSearch {
         let high = self
             .candidates
             .iter()
-            .filter(|&&task| stack.is_high_priority(task))
+            .filter(|&&task| self.high_priority.contains(task))
             .count();
         let low = self.candidates.len() - high;
         let mut tick = Tick {
@@ -95,11 +142,13 @@ impl ModeSearch {
             velocity,
         };
         (0..=high.min(stack.dof()) + low)
-            .find_map(|size| self.first_of_size(&mut tick, size, 0, ActiveSet::EMPTY))
+            .any(|size| self.finds_one_of_size(&mut tick, size, 0))
+            .then_some(self.active)
     }
 
     fn begin_tick(&mut self, borders: &Borders, evaluation: &Evaluation) {
         self.evaluated = 0;
+        self.active = ActiveSet::EMPTY;
         self.hierarchy.begin_tick();
         self.candidates.clear();
         self.at_border.clear();
@@ -107,6 +156,7 @@ impl ModeSearch {
             let at_border = borders.is_at_border(task, evaluation.scalar(task));
             if at_border {
                 self.at_border.push(task);
+                self.leaving[task.index()] = 0.0;
             }
             if at_border || self.rule == ModeRule::Paper {
                 self.candidates.push(task);
@@ -114,53 +164,56 @@ impl ModeSearch {
         }
     }
 
-    /// The first acceptable mode that adds `missing` more sets to `active`, in list order from the
-    /// candidate number `from` on.
-    fn first_of_size(
-        &mut self,
-        tick: &mut Tick<'_>,
-        missing: usize,
-        from: usize,
-        active: ActiveSet,
-    ) -> Option<ActiveSet> {
+    /// Looks for the first acceptable mode that adds `missing` more sets to the active ones, in list
+    /// order from the candidate number `from` on. If there is one, its sets stay active.
+    fn finds_one_of_size(&mut self, tick: &mut Tick<'_>, missing: usize, from: usize) -> bool {
         if missing == 0 {
-            return self.is_accepted(tick, &active).then_some(active);
+            return self.is_accepted(tick);
         }
         for i in from..(self.candidates.len() + 1).saturating_sub(missing) {
             let task = self.candidates[i];
-            if tick.stack[task].excluded().intersects(&active) {
+            if tick.stack[task].excluded().intersects(&self.active) {
                 continue;
             }
             let frozen = self.hierarchy.frozen();
-            if tick.stack.is_high_priority(task)
-                && !self.hierarchy.freeze(tick.stack, tick.evaluation, task)
-            {
-                continue;
+            if self.high_priority.contains(task) {
+                let rate = tick.frozen_rate(task);
+                if !self
+                    .hierarchy
+                    .freeze(tick.stack, tick.evaluation, task, rate)
+                {
+                    continue;
+                }
             }
-            let mut larger = active;
-            larger.insert(task);
-            let found = self.first_of_size(tick, missing - 1, i + 1, larger);
+            self.active.insert(task);
+            let is_found = self.finds_one_of_size(tick, missing - 1, i + 1);
             self.hierarchy.release_to(frozen);
-            if found.is_some() {
-                return found;
+            if is_found {
+                return true;
             }
+            self.active.remove(task);
         }
-        None
+        false
     }
 
     /// Whether, at the velocity of this mode, no inactive set is left or driven further out.
-    fn is_accepted(&mut self, tick: &mut Tick<'_>, active: &ActiveSet) -> bool {
+    fn is_accepted(&mut self, tick: &mut Tick<'_>) -> bool {
         self.evaluated += 1;
         self.hierarchy
-            .velocity(tick.stack, tick.evaluation, active, tick.velocity);
+            .velocity(tick.stack, tick.evaluation, &self.active, tick.velocity);
         self.at_border
             .iter()
-            .filter(|&&task| !active.contains(task))
+            .filter(|&&task| !self.active.contains(task))
             .all(|&task| {
                 let rate = dot(tick.evaluation.jacobian(tick.stack, task), tick.velocity);
                 let rate = if rate.abs() <= STILL { 0.0 } else { rate };
+                let rate = rate + tick.evaluation.drift(task);
                 let sigma = tick.evaluation.scalar(task);
-                tick.borders.tangent_cone_contains(task, rate, sigma)
+                let stays = tick.borders.tangent_cone_contains(task, rate, sigma);
+                if !stays {
+                    self.leaving[task.index()] = rate;
+                }
+                stays
             })
     }
 }

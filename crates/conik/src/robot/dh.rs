@@ -63,14 +63,22 @@ impl Link {
         self.kind
     }
 
-    /// `base_from_link` given `base_from_previous` and the joint's position.
+    /// θ [rad] at a position of the joint.
     #[inline]
-    pub(crate) fn advance(&self, previous: &Pose, position: f64) -> Pose {
-        let (theta, d) = match self.kind {
-            JointKind::Revolute => (self.theta + position, self.d),
-            JointKind::Prismatic => (self.theta, self.d + position),
+    pub(crate) fn angle(&self, position: f64) -> f64 {
+        match self.kind {
+            JointKind::Revolute => self.theta + position,
+            JointKind::Prismatic => self.theta,
+        }
+    }
+
+    /// `base_from_link` given `base_from_previous`, the joint's position, and sine and cosine of its θ.
+    #[inline]
+    pub(crate) fn advance(&self, previous: &Pose, position: f64, (sin, cos): (f64, f64)) -> Pose {
+        let d = match self.kind {
+            JointKind::Revolute => self.d,
+            JointKind::Prismatic => self.d + position,
         };
-        let (sin, cos) = sin_cos(theta);
         let x_axis = previous.x_axis * cos + previous.y_axis * sin;
         let across: Vec3 = previous.y_axis * cos - previous.x_axis * sin;
         Pose {

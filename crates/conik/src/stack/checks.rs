@@ -2,6 +2,7 @@
 
 use alloc::string::{String, ToString};
 
+use super::BoundRates;
 use crate::active::MAX_TASKS;
 use crate::cone::Interval;
 use crate::joints::MAX_JOINTS;
@@ -45,12 +46,15 @@ pub enum StackErrorReason {
     /// NaN, two infinite bounds, or bounds in the wrong order.
     #[error("the allowed values [{}, {}] are not an interval", .0.min, .0.max)]
     BadInterval(Interval),
-    /// A desired value or rate that is not finite.
-    #[error("the desired value must be finite")]
+    /// A desired value, or a rate, that is not finite.
+    #[error("the desired value and all rates must be finite")]
     NotFinite,
     /// A gain that is not a positive number.
     #[error("the gain must be a positive number [1/s], not {0}")]
     BadGain(f64),
+    /// A speed of recovery that is not a positive number.
+    #[error("the speed of recovery must be a positive number [unit/s], not {0}")]
+    BadSpeed(f64),
     /// A low-priority set without a gain.
     #[error("a set-based task below an equality task needs a gain [1/s]")]
     MissingGain,
@@ -87,6 +91,22 @@ pub(super) fn check_set(dimension: usize, interval: Interval) -> Result<(), Stac
         Err(StackErrorReason::BadInterval(interval))
     } else {
         Ok(())
+    }
+}
+
+pub(super) fn check_rates(rates: BoundRates) -> Result<(), StackErrorReason> {
+    if rates.min.is_finite() && rates.max.is_finite() {
+        Ok(())
+    } else {
+        Err(StackErrorReason::NotFinite)
+    }
+}
+
+pub(super) fn check_speed(speed: f64) -> Result<(), StackErrorReason> {
+    if speed > 0.0 && speed.is_finite() {
+        Ok(())
+    } else {
+        Err(StackErrorReason::BadSpeed(speed))
     }
 }
 

@@ -10,7 +10,7 @@ use alloc::vec::Vec;
 use crate::active::{ActiveSet, MAX_TASKS};
 use crate::cone::Interval;
 use crate::robot::Robot;
-use crate::task::Task;
+use crate::task::{JointPosition, Task};
 use crate::task_id::TaskId;
 pub use checks::{StackError, StackErrorReason};
 use checks::{check_desired, check_dimension, check_gain, check_set, error};
@@ -32,9 +32,23 @@ pub enum Goal {
     Set {
         /// The allowed values [task's unit].
         interval: Interval,
+        /// How fast the bounds move [task's unit per second].
+        rates: BoundRates,
         /// Λ [1/s] with which a low-priority set is driven back to its border.
         gain: Option<f64>,
+        /// Speed [task's unit per second] at which a high-priority set that is outside moves back in;
+        /// without it, it is only kept from getting worse.
+        recovery: Option<f64>,
     },
+}
+
+/// How fast the two bounds of a set move [task's unit per second], positive upward.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct BoundRates {
+    /// Of the least allowed value.
+    pub min: f64,
+    /// Of the greatest allowed value.
+    pub max: f64,
 }
 
 /// One task of a stack.
@@ -93,8 +107,34 @@ pub struct Stack {
 }
 
 impl Stack {
-    /// An empty stack for a robot.
+    /// A stack for a robot, with the position limits of its joints as its first high-priority sets:
+    /// `limit/<joint>` for each joint that has any.
     pub fn new(robot: &Robot) -> Self {
+        let mut stack = Self::without_position_limits(robot);
+        for (index, joint) in robot.joints().iter().enumerate() {
+            let limits = joint
+                .limits
+                .position
+                .map(|(min, max)| Interval { min, max });
+            if let Some(interval) = limits.filter(Interval::is_valid) {
+                stack.levels.push(Level {
+                    name: alloc::format!("limit/{}", joint.name),
+                    task: Box::new(JointPosition::of(index)),
+                    goal: Goal::Set {
+                        interval,
+                        rates: BoundRates::default(),
+                        gain: None,
+                        recovery: None,
+                    },
+                    excluded: ActiveSet::EMPTY,
+                });
+            }
+        }
+        stack
+    }
+
+    /// An empty stack for a robot, even if its joints have position limits.
+    pub fn without_position_limits(robot: &Robot) -> Self {
         Self {
             dof: robot.dof(),
             levels: Vec::new(),
@@ -158,7 +198,12 @@ impl Stack {
                 None if low_priority => Err(StackErrorReason::MissingGain),
                 None => Ok(()),
             })
-            .map(|()| Goal::Set { interval, gain });
+            .map(|()| Goal::Set {
+                interval,
+                rates: BoundRates::default(),
+                gain,
+                recovery: None,
+            });
         self.push(name, task, goal)
     }
 
@@ -230,6 +275,26 @@ impl Stack {
             .iter()
             .enumerate()
             .map(|(i, level)| (TaskId::new(i), level))
+    }
+
+    /// Whether a set moves in by itself while it is outside.
+    pub(crate) fn recovers(&self, task: TaskId) -> bool {
+        matches!(
+            self[task].goal(),
+            Goal::Set {
+                recovery: Some(_),
+                ..
+            }
+        )
+    }
+
+    /// The allowed values of a task that is a set; all values for another one.
+    pub(crate) fn interval_of_set(&self, task: TaskId) -> Interval {
+        let all = Interval {
+            min: f64::NEG_INFINITY,
+            max: f64::INFINITY,
+        };
+        self[task].interval().copied().unwrap_or(all)
     }
 
     /// Number of tasks.

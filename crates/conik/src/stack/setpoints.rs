@@ -2,8 +2,8 @@
 
 use core::any::Any;
 
-use super::checks::{check_desired, check_set, error};
-use super::{Goal, Stack, StackError, StackErrorReason};
+use super::checks::{check_desired, check_rates, check_set, check_speed, error};
+use super::{BoundRates, Goal, Stack, StackError, StackErrorReason};
 use crate::cone::Interval;
 use crate::task::Task;
 use crate::task_id::TaskId;
@@ -37,18 +37,50 @@ impl Setpoints<'_> {
         })
     }
 
-    /// Sets the allowed values of a set-based task.
+    /// Sets the allowed values of a set-based task, at rest.
     pub fn set_interval(
         &mut self,
         task: TaskId,
         new_interval: impl Into<Interval>,
     ) -> Result<(), StackError> {
+        self.set_interval_moving(task, new_interval, BoundRates::default())
+    }
+
+    /// Sets the allowed values of a set-based task and the rates at which its bounds move.
+    pub fn set_interval_moving(
+        &mut self,
+        task: TaskId,
+        new_interval: impl Into<Interval>,
+        new_rates: BoundRates,
+    ) -> Result<(), StackError> {
         let new_interval = new_interval.into();
         self.change(task, |level_goal, dimension| {
             check_set(dimension, new_interval)?;
+            check_rates(new_rates)?;
             match level_goal {
-                Goal::Set { interval, .. } => {
+                Goal::Set {
+                    interval, rates, ..
+                } => {
                     *interval = new_interval;
+                    *rates = new_rates;
+                    Ok(())
+                }
+                Goal::Equality { .. } => Err(StackErrorReason::WrongKind),
+            }
+        })
+    }
+
+    /// Sets the speed [task's unit per second] at which a high-priority set moves in while it is
+    /// outside, as far as all others and the joints' limits allow; `None`: it is only kept from
+    /// getting worse, and moves in as the tasks below move it.
+    pub fn set_recovery(&mut self, task: TaskId, speed: Option<f64>) -> Result<(), StackError> {
+        self.change(task, |level_goal, _| {
+            if let Some(speed) = speed {
+                check_speed(speed)?;
+            }
+            match level_goal {
+                Goal::Set { recovery, .. } => {
+                    *recovery = speed;
                     Ok(())
                 }
                 Goal::Equality { .. } => Err(StackErrorReason::WrongKind),

@@ -12,6 +12,7 @@ use crate::kinematics::{Frame, Kinematics};
 pub struct Distance {
     frame: Frame,
     point: Vec3,
+    velocity: Vec3,
 }
 
 impl Distance {
@@ -25,6 +26,7 @@ impl Distance {
         Self {
             frame,
             point: point.into(),
+            velocity: Vec3::ZERO,
         }
     }
 
@@ -33,9 +35,21 @@ impl Distance {
         self.point
     }
 
-    /// Moves the point [m].
+    /// Velocity of the point in the base frame [m/s].
+    pub fn velocity(&self) -> Vec3 {
+        self.velocity
+    }
+
+    /// Puts the point somewhere else [m], at rest.
     pub fn set_point(&mut self, point: impl Into<Vec3>) {
+        self.set_point_moving(point, Vec3::ZERO);
+    }
+
+    /// Says where the point is now [m] and how it moves [m/s]. Until the next call it is taken to move
+    /// on at that velocity within each tick, so call this before every tick.
+    pub fn set_point_moving(&mut self, point: impl Into<Vec3>, velocity: impl Into<Vec3>) {
         self.point = point.into();
+        self.velocity = velocity.into();
     }
 
     #[inline]
@@ -76,6 +90,14 @@ impl Task for Distance {
             add_bend(axis.into(), weights[0]);
         }
         add_bend(along, -weights[0]);
+    }
+
+    fn is_moving(&self) -> bool {
+        self.velocity != Vec3::ZERO
+    }
+
+    fn value_ahead(&self, kinematics: &Kinematics, ahead_s: f64, value: &mut [f64]) {
+        value[0] = (self.away_from_point(kinematics) - self.velocity * ahead_s).norm();
     }
 
     fn bend(&self, sigma: f64) -> f64 {

@@ -13,6 +13,7 @@ use crate::kinematics::{Frame, Kinematics};
 pub struct FieldOfView {
     frame: Frame,
     direction: Vec3,
+    angular_velocity: Vec3,
 }
 
 impl FieldOfView {
@@ -24,16 +25,37 @@ impl FieldOfView {
 
     /// The z axis of any frame against `direction`.
     pub fn between(frame: Frame, direction: impl Into<Vec3>) -> Self {
-        let direction = direction.into();
         Self {
             frame,
-            direction: direction * (1.0 / direction.norm()),
+            direction: direction.into().normalized(),
+            angular_velocity: Vec3::ZERO,
         }
     }
 
     /// The desired direction in the base frame, of length 1.
     pub fn direction(&self) -> Vec3 {
         self.direction
+    }
+
+    /// Angular velocity of the desired direction in the base frame [rad/s].
+    pub fn angular_velocity(&self) -> Vec3 {
+        self.angular_velocity
+    }
+
+    /// Desires another direction, at rest.
+    pub fn set_direction(&mut self, direction: impl Into<Vec3>) {
+        self.set_direction_turning(direction, Vec3::ZERO);
+    }
+
+    /// Says what direction is desired now and how it turns [rad/s]. Until the next call it is taken to
+    /// turn on at that rate within each tick, so call this before every tick.
+    pub fn set_direction_turning(
+        &mut self,
+        direction: impl Into<Vec3>,
+        angular_velocity: impl Into<Vec3>,
+    ) {
+        self.direction = direction.into().normalized();
+        self.angular_velocity = angular_velocity.into();
     }
 
     #[inline]
@@ -74,6 +96,15 @@ impl Task for FieldOfView {
             add_bend(axis.into(), weights[0]);
         }
         add_bend(along, -weights[0]);
+    }
+
+    fn is_moving(&self) -> bool {
+        self.angular_velocity != Vec3::ZERO
+    }
+
+    fn value_ahead(&self, kinematics: &Kinematics, ahead_s: f64, value: &mut [f64]) {
+        let later = self.direction.turned_by(self.angular_velocity * ahead_s);
+        value[0] = (kinematics.base_from(self.frame).z_axis - later).norm();
     }
 
     fn bend(&self, sigma: f64) -> f64 {

@@ -44,6 +44,18 @@ pub trait Task: Any + Debug + Send {
         }
     }
 
+    /// Whether the task's own parameters move: a point, a direction. Its value then changes though the
+    /// robot does not.
+    fn is_moving(&self) -> bool {
+        false
+    }
+
+    /// Writes the value that σ will have `ahead_s` [s] from now if the robot stays where it is. Asked
+    /// only of a task that [`is_moving`](Self::is_moving).
+    fn value_ahead(&self, kinematics: &Kinematics, _ahead_s: f64, value: &mut [f64]) {
+        self.value(kinematics, value);
+    }
+
     /// How strongly the task bends: an estimate of the second derivative of σ along a joint motion of
     /// 1 rad [task's unit/rad²], where its value is `sigma`. The damping at a border is chosen by it.
     fn bend(&self, _sigma: f64) -> f64 {
@@ -94,8 +106,12 @@ impl<'a> JacobianMut<'a> {
     /// If the task has fewer components.
     #[inline]
     pub fn rows<const N: usize>(&mut self) -> [&mut [f64]; N] {
-        let mut rows = self.entries.chunks_exact_mut(self.dof);
-        core::array::from_fn(|_| rows.next().expect("the task has as many components"))
+        let mut rest = &mut *self.entries;
+        core::array::from_fn(|_| {
+            let (row, below) = core::mem::take(&mut rest).split_at_mut(self.dof);
+            rest = below;
+            row
+        })
     }
 }
 

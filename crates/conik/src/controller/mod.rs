@@ -1,20 +1,24 @@
 //! The controller: from a configuration to the next joint reference, once per period.
 
+mod explain;
+
 use alloc::boxed::Box;
-use alloc::vec::Vec;
 
 use crate::active::ActiveSet;
+use crate::anchor::{Anchor, AnchorTick};
+use crate::barrier::Barrier;
 use crate::border::Borders;
 use crate::evaluation::Evaluation;
 use crate::joints::JointVec;
 use crate::kinematics::Kinematics;
 use crate::landing::{Approach, Landed, Landing};
+use crate::limits::Limits;
+use crate::linalg::{copy, not_finite};
 use crate::mode::{ModeSearch, Nearest, NearestTick};
 use crate::robot::Robot;
 use crate::settings::{Border, ModeRule, Settings};
-use crate::sides::Held;
 use crate::stack::{Setpoints, Stack};
-use crate::step::{SpeedLimit, Step};
+use crate::step::Step;
 use crate::task_id::TaskId;
 
 /// A kinematic controller for one robot and one stack of tasks: the block of that name in Fig. 2 of
@@ -38,10 +42,14 @@ pub struct Controller {
     /// The robot where the last tick landed: the next q, as a rule.
     there: Evaluation,
     borders: Borders,
+    barrier: Barrier,
+    anchor: Anchor,
+    limits: Limits,
     rule: Rule,
     landing: Landing,
-    /// Greatest speed of each joint; infinite where there is none.
-    speed_limits: Vec<f64>,
+    /// q̇ and q + T q̇ while a tick is at work; in `step` they stand when it has succeeded.
+    qd: JointVec,
+    q_ref: JointVec,
     step: Step,
 }
 
@@ -57,7 +65,6 @@ enum Rule {
 /// What a rule proposes for a tick.
 struct Proposal {
     active: Option<ActiveSet>,
-    held: Held,
     modes_evaluated: usize,
 }
 
@@ -120,24 +127,26 @@ impl Controller {
                 robot: robot.dof(),
             });
         }
+        let period = 1.0 / settings.rate_hz;
+        let limits = Limits::new(robot, period);
         Ok(Self {
-            period: 1.0 / settings.rate_hz,
+            period,
             settings,
-            here: Evaluation::new(robot, &stack),
-            there: Evaluation::new(robot, &stack),
-            borders: Borders::new(settings.border, &stack),
+            here: Evaluation::new(robot, &stack, period),
+            there: Evaluation::new(robot, &stack, period),
+            borders: Borders::new(&settings, &stack),
+            barrier: Barrier::new(&stack, &settings, limits.accelerations()),
+            anchor: Anchor::new(stack.dof(), 2 * stack.len()),
+            limits,
             rule: match settings.mode_rule {
                 ModeRule::Paper | ModeRule::Border => {
                     Rule::Search(Box::new(ModeSearch::new(&stack, &settings)))
                 }
                 ModeRule::Cone => Rule::Nearest(Box::new(Nearest::new(&stack, &settings))),
             },
-            landing: Landing::new(&stack, 1.0 / settings.rate_hz),
-            speed_limits: robot
-                .joints()
-                .iter()
-                .map(|joint| joint.limits.speed.unwrap_or(f64::INFINITY))
-                .collect(),
+            landing: Landing::new(&stack, period),
+            qd: JointVec::zeros(robot.dof()),
+            q_ref: JointVec::zeros(robot.dof()),
             step: Step::at_rest(&stack),
             stack,
         })
@@ -158,30 +167,31 @@ impl Controller {
         }
         self.borders.observe(&self.stack, &self.here);
 
-        let mut qd = JointVec::zeros(q.len());
         let mut pivots = MAX_PIVOTS;
-        let proposal = self.propose(&mut qd, &mut pivots);
-        if let Some(joint) = qd.iter().position(|v| !v.is_finite()) {
+        self.raise_barrier(&mut pivots);
+        let proposal = self.propose(&mut pivots);
+        if let Some(joint) = not_finite(&self.qd) {
             return Err(StepError::VelocityNotFinite { joint });
         }
-        let speed_limit = scale_to_limits(&mut qd, &self.speed_limits);
-        let mut q_ref = JointVec::zeros(q.len());
-        let landed = self.arrive(
-            q,
-            &proposal.held,
-            speed_limit.is_some(),
-            &mut qd,
-            &mut q_ref,
-            &mut pivots,
-        );
+        let anchor = self.anchor.velocity();
+        let speed_limit = self.limits.shorten_to_speed(&mut self.qd, anchor);
+        let acceleration_limit =
+            self.limits
+                .shorten_to_acceleration(&mut self.qd, anchor, &self.step.qd);
+        let is_shortened = speed_limit.is_some() || acceleration_limit.is_some();
+        let landed = self.arrive(q, &proposal, is_shortened, &mut pivots);
 
+        let was_active = self.step.active;
         let step = &mut self.step;
-        for i in 0..q.len() {
-            step.qdd[i] = (qd[i] - step.qd[i]) / self.period;
+        step.acceleration_exceeded = self.limits.exceeded(&self.qd, &step.qd);
+        let changes = step.qdd.iter_mut().zip(step.qd.iter().zip(self.qd.iter()));
+        for (qdd, (before, now)) in changes {
+            *qdd = (now - before) * self.settings.rate_hz;
         }
-        step.q_ref = q_ref;
-        step.qd = qd;
+        copy(&mut step.q_ref, &self.q_ref);
+        copy(&mut step.qd, &self.qd);
         step.speed_limit = speed_limit;
+        step.acceleration_limit = acceleration_limit;
         step.no_mode = proposal.active.is_none();
         step.active = proposal.active.unwrap_or_default();
         step.modes_evaluated = proposal.modes_evaluated;
@@ -189,21 +199,43 @@ impl Controller {
         step.landed = landed;
         step.values.copy_from(self.here.values());
         step.errors.copy_from(self.here.errors());
-        Ok(step)
+        self.explain(&was_active);
+        Ok(&self.step)
+    }
+
+    /// What the high-priority sets allow in this tick, and a velocity that keeps them.
+    ///
+    /// The rules `Paper` and `Border` ask for the barrier only where rest is not the anchor.
+    fn raise_barrier(&mut self, pivots: &mut usize) {
+        self.anchor.rest();
+        self.barrier.clear();
+        let rest_is_enough = !self.limits.has_acceleration();
+        if matches!(self.rule, Rule::Search(_)) && rest_is_enough && self.borders.are_at_ease() {
+            return;
+        }
+        self.barrier
+            .gather(&self.stack, &self.borders, &mut self.here);
+        if rest_is_enough && self.barrier.is_at_ease() {
+            return;
+        }
+        self.anchor.find(&mut AnchorTick {
+            barrier: &mut self.barrier,
+            limits: &self.limits,
+            before: &self.step.qd,
+            pivots,
+        });
     }
 
     /// The velocity of the mode that the rule chooses.
-    fn propose(&mut self, qd: &mut JointVec, pivots: &mut usize) -> Proposal {
+    fn propose(&mut self, pivots: &mut usize) -> Proposal {
         match &mut self.rule {
             Rule::Search(search) => {
-                let active = search.choose(&self.stack, &self.borders, &mut self.here, qd);
+                let active =
+                    search.choose(&self.stack, &self.borders, &mut self.here, &mut self.qd);
                 if active.is_none() {
-                    qd.fill(0.0);
+                    self.qd.copy_from_slice(self.anchor.velocity());
                 }
                 Proposal {
-                    held: self
-                        .borders
-                        .held(&self.stack, &active.unwrap_or_default(), &self.here),
                     active,
                     modes_evaluated: search.evaluated(),
                 }
@@ -212,13 +244,12 @@ impl Controller {
                 let mut tick = NearestTick {
                     stack: &self.stack,
                     evaluation: &mut self.here,
+                    barrier: &mut self.barrier,
                     borders: &self.borders,
                     pivots,
                 };
-                let active = nearest.choose(&mut tick, qd);
                 Proposal {
-                    active: Some(active),
-                    held: nearest.held(),
+                    active: Some(nearest.choose(&mut tick, &mut self.qd)),
                     modes_evaluated: 0,
                 }
             }
@@ -229,28 +260,45 @@ impl Controller {
     fn arrive(
         &mut self,
         q: &[f64],
-        held: &Held,
-        is_scaled: bool,
-        qd: &mut JointVec,
-        q_ref: &mut JointVec,
+        proposal: &Proposal,
+        is_shortened: bool,
         pivots: &mut usize,
     ) -> Landed {
         if self.settings.border == Border::Freeze {
-            for i in 0..q.len() {
-                q_ref[i] = q[i] + self.period * qd[i];
+            for (q_ref, (q, qd)) in self.q_ref.iter_mut().zip(q.iter().zip(self.qd.iter())) {
+                *q_ref = q + self.period * qd;
             }
             return Landed::default();
+        }
+        let mut held = match &self.rule {
+            Rule::Search(_) => {
+                let active = proposal.active.unwrap_or_default();
+                self.borders.held(&self.stack, &active, &self.here)
+            }
+            Rule::Nearest(nearest) => nearest.held(),
+        };
+        // What moves in from outside is not to be held where it was.
+        for &(side, _) in &self.barrier.wishes {
+            held.remove(self.barrier.sides.get(side));
         }
         let mut approach = Approach {
             stack: &self.stack,
             here: &mut self.here,
             there: &mut self.there,
             borders: &self.borders,
-            speed_limits: &self.speed_limits,
+            limits: &self.limits,
+            before: &self.step.qd,
+            anchor: self.anchor.velocity(),
+            held: &held,
             pivots,
         };
-        self.landing
-            .land(&mut approach, q, held, is_scaled, qd, q_ref)
+        self.landing.land(
+            &mut approach,
+            q,
+            is_shortened,
+            &mut self.qd,
+            &mut self.q_ref,
+        )
     }
 
     fn check(&self, q: &[f64]) -> Result<(), StepError> {
@@ -260,7 +308,7 @@ impl Controller {
                 found: q.len(),
             });
         }
-        match q.iter().position(|v| !v.is_finite()) {
+        match not_finite(q) {
             Some(joint) => Err(StepError::PositionNotFinite { joint }),
             None => Ok(()),
         }
@@ -297,24 +345,4 @@ impl Controller {
     pub fn settings(&self) -> &Settings {
         &self.settings
     }
-}
-
-/// Scales the whole velocity so that every joint is within its speed limit. Scaling keeps each J q̇
-/// in its cone, clamping single joints does not.
-pub(crate) fn scale_to_limits(qd: &mut [f64], limits: &[f64]) -> Option<SpeedLimit> {
-    let mut bound: Option<SpeedLimit> = None;
-    for (joint, (speed, limit)) in qd.iter().zip(limits).enumerate() {
-        if speed.abs() > *limit {
-            let factor = limit / speed.abs();
-            if factor < bound.map_or(1.0, |bound| bound.factor) {
-                bound = Some(SpeedLimit { joint, factor });
-            }
-        }
-    }
-    if let Some(SpeedLimit { factor, .. }) = bound {
-        for speed in qd {
-            *speed *= factor;
-        }
-    }
-    bound
 }

@@ -1,6 +1,11 @@
-//! The five properties that Section VI of the paper confirms, watched on every tick.
+//! The five properties that Section VI of the paper confirms, watched on every tick, and what else
+//! deserves a look.
+
+mod observations;
 
 use alloc::vec::Vec;
+
+pub use observations::{JointHistory, Observations, Occurrence};
 
 use crate::stack::Stack;
 use crate::step::Step;
@@ -19,6 +24,7 @@ pub struct Monitor {
     outside_never_worse: Deviation,
     entered_stays: Deviation,
     low_priority_excess: Deviation,
+    observations: Observations,
 }
 
 /// What one task has done so far.
@@ -116,11 +122,13 @@ impl Monitor {
             outside_never_worse: Deviation::default(),
             entered_stays: Deviation::default(),
             low_priority_excess: Deviation::default(),
+            observations: Observations::new(stack),
         }
     }
 
     /// Takes in one tick: the state at time `t_s` [s], before the step, and the mode chosen there.
     pub fn observe(&mut self, stack: &Stack, step: &Step, t_s: f64) {
+        self.observations.observe(stack, step, t_s);
         for (id, level) in stack.iter() {
             let history = &mut self.histories[id.index()];
             history.last_s = t_s;
@@ -160,6 +168,11 @@ impl Monitor {
         if inside && history.entered_s.is_none() {
             history.entered_s = Some(t_s);
         }
+    }
+
+    /// What was seen so far besides the five properties.
+    pub fn observations(&self) -> &Observations {
+        &self.observations
     }
 
     /// What one task has done so far.

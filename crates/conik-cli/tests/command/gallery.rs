@@ -1,0 +1,93 @@
+//! The scenarios of `scenarios/gallery`: they do what their comments say.
+
+use std::fs;
+use std::path::PathBuf;
+
+use serde_json::Value;
+
+use super::process::{done, empty_folder, repository};
+use super::run_folder::summary;
+
+fn gallery() -> PathBuf {
+    repository().join("scenarios/gallery")
+}
+
+/// Runs a scenario of the gallery, changed by `change`, on the ideal arm; in a folder of the test's.
+fn run(test: &str, name: &str, change: impl FnOnce(String) -> String) -> Value {
+    let folder = empty_folder(&format!("gallery {test} {name}"));
+    let text = fs::read_to_string(gallery().join(name)).unwrap();
+    fs::write(folder.join("scenario.toml"), change(text)).unwrap();
+    done(&folder, "run scenario.toml --robot ideal --quiet --out .");
+    summary(&folder)
+}
+
+fn changes(summary: &Value) -> usize {
+    summary["modes"].as_array().unwrap().len() - 1
+}
+
+#[test]
+fn every_scenario_reaches_its_goals_inside_its_sets() {
+    let mut names: Vec<String> = fs::read_dir(gallery())
+        .unwrap()
+        .map(|entry| entry.unwrap().file_name().into_string().unwrap())
+        .collect();
+    names.sort();
+    assert!(names.len() >= 4, "{names:?}");
+    let readme = fs::read_to_string(repository().join("README.md")).unwrap();
+    for name in names {
+        let summary = run("all", &name, |text| {
+            for key in ["mode_rule", "border", "recursion"] {
+                assert!(!text.contains(key), "{name} shows the defaults");
+            }
+            text
+        });
+        assert!(readme.contains(&name), "README.md does not mention {name}");
+        for property in ["inside_stays", "entered_stays"] {
+            let property = &summary["properties"][property];
+            assert_eq!(property["worst"], 0.0, "{name}: {property}");
+        }
+        let reached = summary["waypoints_reached_s"].as_array().unwrap();
+        assert!(reached.iter().all(Value::is_f64), "{name}: {reached:?}");
+        let error = summary["tasks"]["position"]["final_error"].as_f64();
+        assert!(error < Some(1e-5), "{name}: {error:?}");
+        assert!((1..=24).contains(&changes(&summary)), "{name}");
+        assert_eq!(summary["landing"]["stood_still_ticks"], 0, "{name}");
+    }
+}
+
+#[test]
+fn joints_come_to_their_limits_and_the_ball_is_slid_along() {
+    let limits = run("limits", "joint-limits.toml", |text| text);
+    for joint in ["elbow", "wrist_2"] {
+        assert!(limits["tasks"][joint]["active_s"].as_f64() > Some(1.0));
+    }
+    let behind = run("limits", "straight-behind.toml", |text| text);
+    assert!(behind["tasks"]["ball"]["active_s"].as_f64() > Some(10.0));
+    let forest = run("limits", "forest.toml", |text| text);
+    let active = forest["tasks"].as_object().unwrap().values();
+    let active = active.filter(|task| task["active_s"].as_f64() > Some(0.0));
+    assert!(active.count() >= 5, "balls were in the way");
+    let modes = forest["modes"].as_array().unwrap();
+    let lifted = |mode: &Value| mode["active"].as_array().unwrap().len() == 2;
+    assert!(modes.iter().any(lifted), "a ball and the ceiling");
+}
+
+#[test]
+fn low_priority_view_is_left_and_comes_back() {
+    let summary = run("left", "low-priority-view.toml", |text| text);
+    let excess = &summary["properties"]["low_priority_excess"];
+    assert!(excess["worst"].as_f64() > Some(0.1), "it is left: {excess}");
+    let last = summary["tasks"]["view"]["active_s"].as_f64();
+    assert!(last > Some(10.0), "{last:?}");
+}
+
+/// Folded in towards this point, the position task carries the view out, then in, by turns.
+#[test]
+fn low_priority_set_on_its_way_back_is_not_released_and_driven_by_turns() {
+    let summary = run("back", "low-priority-view.toml", |text| {
+        let (there, here) = ("0.25, 0.45, 0.00", "0.10, 0.45, 0.10");
+        assert!(text.contains(there));
+        text.replace(there, here)
+    });
+    assert!(changes(&summary) <= 6, "{}", changes(&summary));
+}

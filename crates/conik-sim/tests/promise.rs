@@ -1,0 +1,160 @@
+//! What border `land` promises, and what the summary tells of the landings.
+
+use std::sync::atomic::AtomicBool;
+
+use conik_sim::arm::{ArmError, IdealArm};
+use conik_sim::experiment::Experiment;
+use conik_sim::record::Record;
+use conik_sim::run::run;
+use conik_sim::scenario::{Border, ModeRule, Recursion, Scenario};
+use conik_sim::summarise::Summariser;
+use conik_sim::summary::{Outcome, Property, Settings, Summary};
+
+/// The paper's Example 2 under the default rules.
+fn example2() -> Scenario {
+    let path = concat!(
+        env!("CARGO_MANIFEST_DIR"),
+        "/../../scenarios/paper/example2.toml"
+    );
+    let mut scenario = Scenario::load(path).expect("a sound scenario");
+    scenario.control.mode_rule = ModeRule::Cone;
+    scenario.control.border = Border::Land;
+    scenario.control.recursion = Recursion::SicilianoSlotine;
+    scenario
+}
+
+/// Runs a scenario on the ideal arm.
+fn run_of(scenario: Scenario) -> (Vec<Record>, Summary) {
+    let experiment = Experiment::new(&scenario).expect("a sound scenario");
+    let mut summariser = Summariser::new(experiment.controller.stack(), 2);
+    let units = experiment
+        .controller
+        .stack()
+        .iter()
+        .map(|(_, level)| (level.name().to_owned(), level.task().unit().to_owned()))
+        .collect();
+    let mut arm = IdealArm::at(experiment.q0);
+    let mut records = vec![];
+    let ended = run(
+        experiment,
+        &mut arm,
+        &mut |record: Record| -> Result<(), ArmError> {
+            summariser.take(&record);
+            records.push(record);
+            Ok(())
+        },
+        &AtomicBool::new(false),
+    );
+    let settings = Settings {
+        robot: "ideal".to_owned(),
+        scenario,
+        joint_names: vec![],
+        units,
+    };
+    (records, summariser.finish(&ended, settings, "0"))
+}
+
+/// A dip of the view that high-priority sets must not take.
+fn dip(worst: f64) -> Property {
+    Property {
+        holds: worst <= 1e-6,
+        worst,
+        at_s: Some(13.504),
+        task: Some("view".to_owned()),
+    }
+}
+
+#[test]
+fn broken_property_is_a_fault_with_border_land_and_none_with_freeze() {
+    let (_, sound) = run_of(example2());
+    assert_eq!(sound.faults(), [""; 0]);
+    for break_it in [
+        |summary: &mut Summary| summary.properties.inside_stays = dip(0.0021),
+        |summary: &mut Summary| summary.properties.outside_never_worse = dip(0.0021),
+        |summary: &mut Summary| summary.properties.entered_stays = dip(0.0021),
+    ] {
+        let mut summary = sound.clone();
+        break_it(&mut summary);
+        let faults = summary.faults();
+        assert_eq!(faults.len(), 1, "{faults:?}");
+        for part in [
+            "promise-broken",
+            "`view`",
+            "2.100e-3",
+            "at 13.504 s",
+            "`land`",
+        ] {
+            assert!(faults[0].contains(part), "{part} is not in {faults:?}");
+        }
+        summary.settings.scenario.control.border = Border::Freeze;
+        assert_eq!(summary.faults(), [""; 0]);
+    }
+}
+
+#[test]
+fn observations_and_what_is_within_tolerance_are_no_faults() {
+    let (_, mut summary) = run_of(example2());
+    summary.properties.equality_converges = dip(1.0);
+    summary.properties.low_priority_excess = dip(1.0);
+    summary.properties.entered_stays = dip(1e-6);
+    assert_eq!(summary.faults(), [""; 0]);
+}
+
+#[test]
+fn fault_that_ended_the_run_is_told_before_a_broken_promise() {
+    let (_, mut summary) = run_of(example2());
+    summary.outcome = Outcome::Fault {
+        name: "tracking-lost".to_owned(),
+        detail: "the arm fell behind".to_owned(),
+    };
+    summary.properties.entered_stays = dip(0.5);
+    let faults = summary.faults();
+    assert_eq!(faults[0], "tracking-lost: the arm fell behind");
+    assert!(
+        faults[1].starts_with("promise-broken: `view`"),
+        "{faults:?}"
+    );
+    assert_eq!(faults.len(), 2);
+}
+
+#[test]
+fn summary_adds_up_what_landing_took() {
+    let (records, summary) = run_of(example2());
+    let landing = summary.landing.expect("border land");
+    let ticks = |which: fn(&Record) -> bool| records.iter().filter(|r| which(r)).count() as u64;
+    assert_eq!(landing.corrected_ticks, ticks(|r| r.landed.corrections > 0));
+    assert!(landing.corrected_ticks > 10, "the run shows something");
+    assert_eq!(landing.stood_still_ticks, ticks(|r| r.landed.stood_still));
+    let halvings: usize = records.iter().map(|r| r.landed.halvings).sum();
+    assert_eq!(landing.halvings, halvings as u64);
+    let work = summary.step_work_max;
+    let most = |of: fn(&Record) -> usize| records.iter().map(of).max();
+    assert_eq!(Some(work.landing_trials), most(|r| r.landed.kinematics));
+    assert_eq!(Some(work.pivots), most(|r| r.pivots));
+    assert!(work.landing_trials >= 2 && work.pivots >= 2);
+    assert_eq!(work.modes, 0, "rule cone goes through no modes");
+}
+
+#[test]
+fn paper_rules_land_nowhere_and_go_through_modes() {
+    let mut scenario = example2();
+    scenario.control.mode_rule = ModeRule::Paper;
+    scenario.control.border = Border::Freeze;
+    scenario.control.recursion = Recursion::Chiaverini;
+    let (_, summary) = run_of(scenario);
+    assert_eq!(summary.landing, None);
+    let work = summary.step_work_max;
+    assert_eq!((work.landing_trials, work.pivots), (0, 0));
+    assert!(work.modes >= 2);
+}
+
+#[test]
+fn summaries_of_earlier_builds_are_still_read() {
+    let (_, summary) = run_of(example2());
+    let mut json = serde_json::to_value(&summary).expect("a summary can be written");
+    let fields = json.as_object_mut().expect("an object");
+    assert!(fields.remove("landing").is_some() && fields.remove("step_work_max").is_some());
+    let read: Summary = serde_json::from_value(json).expect("an earlier summary");
+    assert_eq!(read.landing, None);
+    assert_eq!(read.tasks, summary.tasks);
+}

@@ -1,0 +1,148 @@
+//! What the high-priority sets allow a velocity: a row a q̇ ≥ b for every side that it could leave.
+//!
+//! With border `Land`, b is the rate at which the side is a margin inside its bound at the end of the
+//! period, to first order, cut at zero: while nothing but the arm moves, standing still is enough. With
+//! `Freeze`, b is zero at the border and outside, and sides further inside bind nothing.
+//!
+//! A bound that comes closer by itself, because it moves or because the task's own parameters do, adds
+//! the rate at which it comes. Then b may be positive, and standing still is not enough.
+//!
+//! Where joints have acceleration limits, a side is approached no faster than half of what they can
+//! do would still stop in front of it.
+
+use alloc::vec::Vec;
+
+use crate::border::{Borders, MARGIN};
+use crate::evaluation::Evaluation;
+use crate::real::sqrt;
+use crate::settings::{Border, Settings};
+use crate::sides::{Side, Sides, landing_rate};
+use crate::stack::{Goal, Stack};
+
+/// Share of the joints' acceleration that braking in front of a bound counts on. The rest is for what
+/// bends, and for the other sets.
+const BRAKING_SHARE: f64 = 0.5;
+
+#[derive(Debug)]
+pub(crate) struct Barrier {
+    pub(crate) sides: Sides,
+    /// b of each side [unit/s].
+    pub(crate) bounds: Vec<f64>,
+    /// Sides, by index, that are to move inward at a rate [unit/s], as far as all the others allow:
+    /// the recovery of sets that are outside.
+    pub(crate) wishes: Vec<(usize, f64)>,
+    /// Greatest acceleration of each joint, where braking is to be counted on.
+    braking: Option<Vec<f64>>,
+    border: Border,
+    period: f64,
+}
+
+impl Barrier {
+    pub(crate) fn new(stack: &Stack, settings: &Settings, braking: Option<Vec<f64>>) -> Self {
+        Self {
+            sides: Sides::new(stack),
+            bounds: Vec::with_capacity(2 * stack.len()),
+            wishes: Vec::with_capacity(2 * stack.len()),
+            braking,
+            border: settings.border,
+            period: 1.0 / settings.rate_hz,
+        }
+    }
+
+    /// Nothing is asked.
+    pub(crate) fn clear(&mut self) {
+        self.sides.clear();
+        self.bounds.clear();
+        self.wishes.clear();
+    }
+
+    /// Gathers, into an empty barrier, the sides of the high-priority sets.
+    pub(crate) fn gather(&mut self, stack: &Stack, borders: &Borders, evaluation: &mut Evaluation) {
+        for (task, level) in stack.iter() {
+            let Goal::Set {
+                interval, recovery, ..
+            } = level.goal()
+            else {
+                break;
+            };
+            let sigma = evaluation.scalar(task);
+            for side in Side::both(task) {
+                let inside = side.inside(borders.interval(task), sigma);
+                let Some(bound) = self.bound(inside) else {
+                    continue;
+                };
+                let approaching = side.inward(borders.bound_rate(side) - evaluation.drift(task));
+                self.sides.push(stack, evaluation, side);
+                self.bounds.push(self.braked(bound, inside) + approaching);
+                let outside = -side.inside(interval, sigma);
+                if let (Some(speed), true) = (*recovery, outside > 0.0) {
+                    let rate = speed.min(landing_rate(-outside, self.period)) + approaching;
+                    self.wishes.push((self.bounds.len() - 1, rate));
+                }
+            }
+        }
+    }
+
+    /// b for a side whose bound is `inside` away; `None` if it binds nothing.
+    fn bound(&self, inside: f64) -> Option<f64> {
+        match self.border {
+            Border::Freeze => (inside <= 0.0).then_some(0.0),
+            Border::Land if inside == f64::INFINITY => None,
+            Border::Land if inside >= 0.0 => Some(landing_rate(inside, self.period).min(0.0)),
+            // Outside a set that had been entered: its bound, or the arm, was moved.
+            Border::Land => Some(landing_rate(inside, self.period)),
+        }
+    }
+
+    /// b, raised for the side gathered last to the rate from which the joints can still brake: the
+    /// largest v with T v + v²/2d ≤ the way that is left, d being the deceleration of the task.
+    fn braked(&self, bound: f64, inside: f64) -> f64 {
+        let Some(accelerations) = &self.braking else {
+            return bound;
+        };
+        let row = self.sides.last_row();
+        let together: f64 = row
+            .iter()
+            .zip(accelerations)
+            .map(|(a, limit)| a.abs() * limit)
+            .sum();
+        let deceleration = BRAKING_SHARE * together;
+        if !(deceleration > 0.0 && deceleration.is_finite()) {
+            return bound;
+        }
+        let way = (inside - MARGIN).max(0.0);
+        let gained = deceleration * self.period;
+        bound.max(gained * (1.0 - sqrt(1.0 + 2.0 * way / (gained * self.period))))
+    }
+
+    /// Adds a side of a lower level, which binds the levels below it.
+    pub(crate) fn push(
+        &mut self,
+        stack: &Stack,
+        evaluation: &mut Evaluation,
+        side: Side,
+        bound: f64,
+    ) {
+        self.sides.push(stack, evaluation, side);
+        self.bounds.push(bound);
+    }
+
+    /// Sides with their rows and their b.
+    pub(crate) fn iter(&self) -> impl Iterator<Item = (Side, &[f64], f64)> {
+        self.sides
+            .iter()
+            .zip(&self.bounds)
+            .map(|((side, row), bound)| (side, row, *bound))
+    }
+
+    /// Whether standing still keeps every side, and no more is wished.
+    pub(crate) fn is_at_ease(&self) -> bool {
+        self.wishes.is_empty() && self.bounds.iter().all(|bound| *bound <= 0.0)
+    }
+
+    /// Whether a velocity keeps every side.
+    pub(crate) fn allows(&self, velocity: &[f64]) -> bool {
+        self.iter()
+            .all(|(_, row, bound)| crate::linalg::dot(row, velocity) >= bound)
+    }
+}

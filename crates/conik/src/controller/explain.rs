@@ -1,0 +1,76 @@
+//! The reasons of a tick, gathered from what the rule and the landing found.
+
+use super::{Controller, MAX_PIVOTS, Rule};
+use crate::active::ActiveSet;
+use crate::linalg::dot;
+use crate::reason::Reason;
+use crate::sides::Side;
+use crate::task_id::TaskId;
+
+impl Controller {
+    /// Why the tick came out as it did.
+    pub(super) fn explain(&mut self, was_active: &ActiveSet) {
+        self.step.reasons.clear();
+        let active = self.step.active;
+        for task in active.iter() {
+            let reason = self.why_active(task);
+            self.step.add_reason(reason);
+        }
+        for task in was_active.iter() {
+            if !active.contains(task) {
+                let reason = self.why_let_go(task);
+                self.step.add_reason(reason);
+            }
+        }
+        self.step.explain_motion();
+        if self.step.no_mode {
+            self.step.add_reason(Reason::NoMode);
+        }
+        if self.step.pivots == MAX_PIVOTS {
+            self.step.add_reason(Reason::OutOfPivots);
+        }
+    }
+
+    fn why_active(&mut self, task: TaskId) -> Reason {
+        let sigma = self.here.scalar(task);
+        let set = self.stack.interval_of_set(task);
+        let is_upper = !set.is_nearer_to_min(sigma);
+        let side = Side { task, is_upper };
+        let crossing_rate = match &self.rule {
+            Rule::Search(search) => {
+                if !self.borders.is_at_border(task, sigma) {
+                    let [lower, upper] = Side::both(task).map(|side| side.inside(&set, sigma));
+                    return Reason::HoldsInside {
+                        task,
+                        inside: lower.min(upper),
+                    };
+                }
+                search.leaving(task).abs()
+            }
+            Rule::Nearest(nearest) => nearest.crossing(side),
+        };
+        Reason::Holds {
+            task,
+            is_upper,
+            crossing: crossing_rate * self.period,
+            rate: self.inward_rate(side),
+        }
+    }
+
+    fn why_let_go(&mut self, task: TaskId) -> Reason {
+        let set = self.stack.interval_of_set(task);
+        let is_upper = !set.is_nearer_to_min(self.here.scalar(task));
+        let side = Side { task, is_upper };
+        Reason::LetsGo {
+            task,
+            inward: self.inward_rate(side).max(0.0),
+        }
+    }
+
+    /// How fast this tick's velocity takes a side inward, relative to its bound [task's unit/s].
+    fn inward_rate(&mut self, side: Side) -> f64 {
+        let moves = self.here.drift(side.task) - self.borders.bound_rate(side);
+        let row = self.here.jacobian(&self.stack, side.task);
+        side.inward(dot(row, &self.step.qd) + moves)
+    }
+}
