@@ -10,7 +10,8 @@
 //! R is the damping of [`Damped`], with λ² = T (l |s| + Σ μ c): near a point where the arm comes to
 //! rest, a tick is a gradient step, and it is stable only if the damping exceeds half a period times
 //! the curvature of what holds it there. |s| stands for the curvature of the task, with l = 1 m for
-//! the reach of the arm; a set that pushes back with multiplier μ adds its own, μ c.
+//! the reach of the arm; a set that pushes back with multiplier μ adds its own, μ c. Below other levels
+//! λ² is at least `LOWER`: their rows push back too, and near a singularity of theirs very hard.
 
 use alloc::vec::Vec;
 
@@ -23,7 +24,8 @@ use crate::settings::{Recursion, Settings};
 use crate::sides::{Held, Sides};
 use crate::stack::Stack;
 
-const FLOOR: f64 = 0.04;
+/// Least λ² of a level below others: that of ε [(task's unit per rad)²].
+const LOWER: f64 = 0.04;
 
 #[derive(Debug)]
 pub(crate) struct LevelProgram {
@@ -168,12 +170,12 @@ impl LevelProgram {
         let asked = sqrt(dot(level.asked, level.asked));
         self.rows.extend_from_slice(level.above.dear());
         self.gap.resize(self.rows.len() / self.dof, 0.0);
-        let floor = if level.above.rows().rank() == 0 {
+        let least = if level.above.rows().rank() == 0 {
             0.0
         } else {
-            FLOOR
+            LOWER
         };
-        let lambda_squared = (self.period * (asked + level.push_back)).max(floor);
+        let lambda_squared = (self.period * (asked + level.push_back)).max(least);
         self.damped.analyse(&self.usable);
         let dimension = level.above.rows().complement(&mut self.free);
         let free = &self.free[..dimension * self.dof];

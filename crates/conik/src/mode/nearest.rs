@@ -21,7 +21,6 @@ use crate::barrier::Barrier;
 use crate::border::Borders;
 use crate::evaluation::Evaluation;
 use crate::linalg::{Solution, dot};
-use crate::real::sqrt;
 use crate::settings::{Recursion, Settings};
 use crate::sides::{Held, Side, Sides};
 use crate::stack::{Goal, Stack};
@@ -88,7 +87,7 @@ impl Nearest {
             held: Held::default(),
             low_active: ActiveSet::EMPTY,
             multipliers: alloc::vec![0.0; 2 * stack.len() * lower.len()],
-            above: Claims::new(stack.dof(), max_rows, lower.len(), 1.0 / settings.rate_hz),
+            above: Claims::new(stack, &lower, max_rows, 1.0 / settings.rate_hz),
             lower,
             asked: Vec::with_capacity(max_rows),
             unmet: Vec::with_capacity(max_rows),
@@ -234,33 +233,24 @@ impl Nearest {
     }
 
     /// A level that has had its turn claims its motions from those below.
-    fn claim(&mut self, tick: &mut NearestTick<'_>, place: usize) {
+    fn claim(&mut self, tick: &NearestTick<'_>, place: usize) {
         let task = self.lower[place];
-        let (evaluation, barrier) = (&*tick.evaluation, &*tick.barrier);
-        let jacobian = evaluation.known_jacobian(task);
+        let turn = Turn {
+            task,
+            jacobian: tick.evaluation.known_jacobian(task),
+            unmet: &self.unmet,
+        };
         if self.recursion == Recursion::SicilianoSlotine {
             let multipliers = &self.multipliers[place * 2 * self.tasks..];
-            let pushing = || {
-                let sides = barrier.sides.iter();
-                sides.filter(|(side, _)| multipliers[side.number()] > 0.0)
-            };
-            let turn = Turn {
-                jacobian,
-                unmet: sqrt(dot(&self.unmet, &self.unmet)),
-            };
-            let rows = pushing().map(|(_, row)| row);
-            self.above.claim_rest(&turn, rows, |curvature| {
-                let mut add = |task: TaskId, weights: &[f64]| {
-                    let task = tick.stack[task].task();
-                    task.add_curvature(evaluation.kinematics(), weights, curvature);
-                };
-                add(task, &self.unmet);
-                for (side, _) in pushing() {
-                    add(side.task, &[side.inward(multipliers[side.number()])]);
-                }
-            });
+            self.above.claim_rest(
+                tick.stack,
+                tick.evaluation.kinematics(),
+                &turn,
+                &tick.barrier.sides,
+                |side| multipliers[side.number()],
+            );
         }
-        self.above.claim(jacobian);
+        self.above.claim(&turn);
     }
 
     /// Which sides bind, and how hard.
