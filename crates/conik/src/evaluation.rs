@@ -47,6 +47,11 @@ impl Evaluation {
         &self.kinematics
     }
 
+    /// The robot where it is.
+    pub(crate) fn kinematics(&self) -> &Kinematics {
+        &self.kinematics
+    }
+
     /// Whether the robot is at `q`.
     pub(crate) fn is_at(&self, q: &[f64]) -> bool {
         **self.kinematics.q() == *q
@@ -122,6 +127,12 @@ impl Evaluation {
     #[inline]
     pub(crate) fn scalar(&self, task: TaskId) -> f64 {
         self.values.of(task)[0]
+    }
+
+    /// J of a task for which it was asked before.
+    pub(crate) fn known_jacobian(&self, task: TaskId) -> &[f64] {
+        debug_assert!(self.jacobian_known[task.index()]);
+        &self.jacobians[task.index()]
     }
 
     /// ∂σ/∂t of a scalar task [unit/s].

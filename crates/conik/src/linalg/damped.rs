@@ -183,6 +183,24 @@ impl Damped {
         }
     }
 
+    /// The square of the smallest singular value of the rows, and l₀².
+    pub(crate) fn least_squared(&mut self, rows: &[f64]) -> f64 {
+        self.fill_gram(rows, 0.0);
+        let n = self.count;
+        eigenvectors(&mut self.gram, n, &mut self.eigenvectors);
+        let least = (0..n).map(|k| self.gram[k * n + k]);
+        least.fold(f64::INFINITY, f64::min).max(0.0) + STRICT * STRICT
+    }
+
+    /// The y, one for each row, with which Aᵀ y is nearest to −g: (A Aᵀ + l₀² I)⁻¹ (−A g).
+    pub(crate) fn balance(&mut self, rows: &[f64], g: &[f64], y: &mut Vec<f64>) {
+        self.fill_gram(rows, STRICT * STRICT);
+        y.clear();
+        y.extend(rows.chunks_exact(self.dof).map(|row| -dot(row, g)));
+        factor(&mut self.gram, self.count);
+        solve(&self.gram, self.count, y);
+    }
+
     /// Rows B, orthonormal in H = AᵀA + R, that span what the orthonormal rows `span` span. R is that of
     /// the last analysis, P that of the orthonormal rows `held`.
     pub(crate) fn weighted_basis(
