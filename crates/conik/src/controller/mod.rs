@@ -218,6 +218,8 @@ impl Controller {
         if rest_is_enough && self.barrier.is_at_ease() {
             return;
         }
+        self.barrier.gather_far(&self.stack, &mut self.here);
+        self.barrier.gather_far(&self.stack, &mut self.here);
         self.anchor.find(&mut AnchorTick {
             barrier: &mut self.barrier,
             limits: &self.limits,
