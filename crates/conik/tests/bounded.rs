@@ -134,7 +134,7 @@ fn crowds_are_kept_within_the_bounds_on_work() {
             moved += usize::from(q0 != *q);
         }
     }
-    assert!(moved > 12, "in some scenes there is room to move: {moved}");
+    assert!(moved >= 8, "in some scenes there is room to move: {moved}");
 }
 
 /// The weighted sum of all joint positions.
