@@ -50,6 +50,11 @@ impl Evaluation {
         &self.kinematics
     }
 
+    /// The robot where it is.
+    pub(crate) fn kinematics(&self) -> &Kinematics {
+        &self.kinematics
+    }
+
     /// How fast the value of a task can change, see [`Task::steepness`](crate::Task::steepness).
     pub(crate) fn steepness(&self, stack: &Stack, task: TaskId) -> f64 {
         stack[task].task().steepness(self.kinematics.reach())
@@ -133,6 +138,12 @@ impl Evaluation {
     #[inline]
     pub(crate) fn scalar(&self, task: TaskId) -> f64 {
         self.values.of(task)[0]
+    }
+
+    /// J of a task for which it was asked before.
+    pub(crate) fn known_jacobian(&self, task: TaskId) -> &[f64] {
+        debug_assert!(self.jacobian_known.contains(task));
+        &self.jacobians[task.index()]
     }
 
     /// ∂σ/∂t of a scalar task [unit/s].

@@ -176,6 +176,45 @@ impl Kinematics {
         });
     }
 
+    /// Adds the second derivatives [m/rad²] of the origin of `frame` along `direction` to `hessian`, one
+    /// row of one entry per joint for each joint.
+    pub fn add_point_curvature(&self, frame: Frame, direction: Vec3, hessian: &mut [f64]) {
+        self.add_curvature(frame, hessian, |axis, row| {
+            self.point_row(frame, direction.cross(axis), row);
+        });
+    }
+
+    /// Adds the second derivatives [1/rad²] of the z axis of `frame` along `direction` to `hessian`, one
+    /// row of one entry per joint for each joint.
+    pub fn add_axis_curvature(&self, frame: Frame, direction: Vec3, hessian: &mut [f64]) {
+        self.add_curvature(frame, hessian, |axis, row| {
+            self.axis_row(frame, direction.cross(axis), row);
+        });
+    }
+
+    /// Joint i turns all that joint j ≥ i does: the second derivative along d is d · (zᵢ × Jⱼ), which
+    /// is column j of the row along d × zᵢ.
+    fn add_curvature(
+        &self,
+        frame: Frame,
+        hessian: &mut [f64],
+        row_along: impl Fn(Vec3, &mut [f64]),
+    ) {
+        let n = self.dof();
+        let mut row = JointVec::zeros(n);
+        for i in 0..self.joints_before(frame) {
+            if self.links[i].kind() == JointKind::Prismatic {
+                continue;
+            }
+            row_along(self.base_from_frame[i].z_axis, &mut row);
+            hessian[i * n + i] += row[i];
+            for j in i + 1..n {
+                hessian[i * n + j] += row[j];
+                hessian[j * n + i] += row[j];
+            }
+        }
+    }
+
     /// Fills `row` two joints at a time; joints after `frame` do not move it.
     #[inline]
     fn fill_row(&self, frame: Frame, row: &mut [f64], entry: impl Fn(&TwoTwists, usize) -> f64) {

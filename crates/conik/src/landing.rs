@@ -39,6 +39,15 @@ const CORRECTIONS: usize = 2;
 /// Halvings before the arm stands still.
 const HALVINGS: usize = 2;
 
+/// After a tick that had to stand still, the next one sets out with this share of the share before.
+/// So halving goes on from tick to tick until a step is short enough for the rows at q, and no tick
+/// takes more kinematics than another.
+const CAUTION: f64 = 0.125;
+
+/// Shares of the margin that a correction is content with where it cannot have all of it. Two bounds may
+/// be closer than two margins: those of sets that were never entered and contradict each other.
+const MARGIN_SHARES: [f64; 2] = [0.5, 0.0625];
+
 /// What it took to land.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Landed {
@@ -78,6 +87,8 @@ pub(crate) struct Landing {
     horizon: f64,
     /// The trial of the least violation so far.
     best: Option<Best>,
+    /// Share of the velocity that the next tick tries first.
+    caution: f64,
     period: f64,
 }
 
@@ -117,6 +128,7 @@ impl Landing {
             change: alloc::vec![0.0; stack.dof()],
             horizon: f64::INFINITY,
             best: None,
+            caution: 1.0,
             period,
         }
     }
@@ -135,13 +147,20 @@ impl Landing {
         let mut landed = Landed::default();
         self.best = None;
         let mut corrections = 0;
+        if self.caution < 1.0 {
+            is_shortened = true;
+            shorten(qd, approach.anchor, self.caution);
+        }
         loop {
             self.aim(q, qd, target);
             landed.kinematics += 1;
             approach.there.look_ahead(approach.stack, target);
             let is_last = corrections == CORRECTIONS;
             match worst(approach, |task| approach.there.scalar(task)) {
-                None if is_shortened || is_last || approach.holds_margins() => return landed,
+                None if is_shortened || is_last || approach.holds_margins() => {
+                    self.caution = (2.0 * self.caution).min(1.0);
+                    return landed;
+                }
                 None => {}
                 Some(outside) => self.remember(outside, qd),
             }
@@ -156,15 +175,16 @@ impl Landing {
             }
             if landed.halvings == HALVINGS {
                 self.give_in(approach, qd, &mut landed);
+                if landed.stood_still {
+                    self.caution = (self.caution * CAUTION).max(f64::MIN_POSITIVE);
+                }
                 self.aim(q, qd, target);
                 return landed;
             }
             landed.halvings += 1;
             corrections = 0;
             is_shortened = true;
-            for (speed, anchor) in qd.iter_mut().zip(approach.anchor) {
-                *speed = anchor + 0.5 * (*speed - anchor);
-            }
+            shorten(qd, approach.anchor, 0.5);
         }
     }
 
@@ -237,10 +257,19 @@ impl Landing {
         // Held sides that cannot all be met may still all be kept, and sets come before accelerations.
         let (held, all) = (self.equalities.len(), self.bounds.len());
         let attempts = [(held, all), (0, all), (0, sides)];
-        attempts.into_iter().enumerate().any(|(i, attempt)| {
+        let with_margin = attempts.into_iter().enumerate().any(|(i, attempt)| {
             let (held, rows) = attempt;
             !attempts[..i].contains(&attempt) && self.change_by_least(approach, held, rows)
-        })
+        });
+        let mut share = 1.0;
+        with_margin
+            || MARGIN_SHARES.into_iter().any(|less| {
+                for bound in &mut self.bounds[..sides] {
+                    *bound -= (share - less) * MARGIN / self.period;
+                }
+                share = less;
+                self.change_by_least(approach, 0, sides)
+            })
     }
 
     /// The least change under the first `rows` rows, the first `held` held sides met exactly.
@@ -327,4 +356,11 @@ fn worst(approach: &Approach<'_>, value: impl Fn(TaskId) -> f64) -> Option<Outsi
         }
     }
     worst
+}
+
+/// What `share` leaves of a velocity beyond its anchor.
+fn shorten(qd: &mut JointVec, anchor: &[f64], share: f64) {
+    for (speed, anchor) in qd.iter_mut().zip(anchor) {
+        *speed = anchor + share * (*speed - anchor);
+    }
 }

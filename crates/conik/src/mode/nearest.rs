@@ -14,12 +14,13 @@
 
 use alloc::vec::Vec;
 
+use super::claims::{Claims, Turn};
 use super::level::{Level, LevelProgram};
 use crate::active::ActiveSet;
 use crate::barrier::Barrier;
 use crate::border::Borders;
 use crate::evaluation::Evaluation;
-use crate::linalg::{RowSpace, Solution, dot};
+use crate::linalg::{Solution, dot};
 use crate::settings::{Recursion, Settings};
 use crate::sides::{Held, Side, Sides};
 use crate::stack::{Goal, Stack};
@@ -28,6 +29,9 @@ use crate::task_id::TaskId;
 /// A side that was held is released when it moves inward faster than this [unit/s]. Rounding alone
 /// must not release it and hold it again.
 const RELEASE: f64 = 1e-7;
+
+/// The same for a set of low priority, whose rate trembles with what holds the levels above.
+const LOW_RELEASE: f64 = 1e-4;
 
 #[derive(Debug)]
 pub(crate) struct Nearest {
@@ -42,12 +46,16 @@ pub(crate) struct Nearest {
     low_active: ActiveSet,
     /// Multiplier of each side at each level in the last tick: how hard the set pushes back.
     multipliers: Vec<f64>,
-    /// Rows of the levels above the present one.
-    above: RowSpace,
+    /// What the levels above the present one have claimed.
+    above: Claims,
     asked: Vec<f64>,
+    /// r: what the last level asked for and did not get.
+    unmet: Vec<f64>,
     returning: Vec<usize>,
     /// How fast each side would be left if it were let go [unit/s].
     crossings: Vec<f64>,
+    /// Directions that each lower level has lost.
+    lost: Vec<usize>,
     tasks: usize,
 }
 
@@ -81,9 +89,11 @@ impl Nearest {
             held: Held::default(),
             low_active: ActiveSet::EMPTY,
             multipliers: alloc::vec![0.0; 2 * stack.len() * lower.len()],
+            lost: alloc::vec![0; lower.len()],
+            above: Claims::new(stack, &lower, max_rows, 1.0 / settings.rate_hz),
             lower,
-            above: RowSpace::new(stack.dof(), max_rows),
             asked: Vec::with_capacity(max_rows),
+            unmet: Vec::with_capacity(max_rows),
             returning: Vec::with_capacity(2 * stack.len()),
             crossings: alloc::vec![0.0; 2 * stack.len()],
             tasks: stack.len(),
@@ -94,18 +104,18 @@ impl Nearest {
     pub(crate) fn choose(&mut self, tick: &mut NearestTick<'_>, velocity: &mut [f64]) -> ActiveSet {
         self.held_before = core::mem::take(&mut self.held);
         self.low_active = ActiveSet::EMPTY;
-        self.above.truncate(0);
+        self.above.clear();
         self.crossings.fill(0.0);
+        self.lost.fill(0);
         velocity.fill(0.0);
-        let mut level_above: Option<TaskId> = None;
+        let mut level_above: Option<usize> = None;
         for place in 0..self.lower.len() {
             let task = self.lower[place];
             if !self.ask(tick, task, velocity) {
                 continue;
             }
-            if let Some(previous) = level_above.replace(task) {
-                self.above
-                    .push_block(tick.evaluation.jacobian(tick.stack, previous));
+            if let Some(previous) = level_above.replace(place) {
+                self.claim(tick, previous);
             }
             self.descend(tick, place, velocity);
         }
@@ -116,6 +126,12 @@ impl Nearest {
     /// How fast a side would be left if it were let go [unit/s]; 0 if it would not.
     pub(crate) fn crossing(&self, side: Side) -> f64 {
         self.crossings[side.number()]
+    }
+
+    /// The levels that have lost directions, and how many.
+    pub(crate) fn lost(&self) -> impl Iterator<Item = (TaskId, usize)> {
+        let levels = self.lower.iter().copied().zip(self.lost.iter().copied());
+        levels.filter(|(_, lost)| *lost > 0)
     }
 
     /// Sides held by this tick's velocity.
@@ -155,7 +171,7 @@ impl Nearest {
                     let asked = kept + back;
                     // Not released as soon as the others cease to carry it out: they may do so by turns.
                     let needed = if self.held_before.contains(side) {
-                        asked + RELEASE
+                        asked + LOW_RELEASE
                     } else {
                         kept
                     };
@@ -188,59 +204,78 @@ impl Nearest {
         if solution == Solution::Optimal {
             velocity.copy_from_slice(self.program.velocity());
             self.remember(place, &tick.barrier.sides);
+            self.lost[place] = self.program.lost();
         }
+        let jacobian = tick.evaluation.known_jacobian(self.lower[place]);
+        let met = jacobian
+            .chunks_exact(velocity.len())
+            .map(|row| dot(row, velocity));
+        self.unmet.clear();
+        self.unmet
+            .extend(self.asked.iter().zip(met).map(|(asked, met)| asked - met));
     }
 
+    /// The program of a level, after `from`, the velocity of the levels above.
     fn solve(&mut self, tick: &mut NearestTick<'_>, place: usize, from: &[f64]) -> Solution {
         let task = self.lower[place];
-        let counted_on = self.held_before.union(&self.held);
-        let push_back = self.push_back(tick, place);
-        let level = Level {
-            jacobian: tick.evaluation.jacobian(tick.stack, task),
+        tick.evaluation.jacobian(tick.stack, task);
+        let (evaluation, barrier) = (&*tick.evaluation, &*tick.barrier);
+        let multipliers = &self.multipliers[place * 2 * self.tasks..];
+        let counting_on = |held: &Held| Level {
+            jacobian: evaluation.known_jacobian(task),
             asked: &self.asked,
             from,
             above: &self.above,
-            sides: &tick.barrier.sides,
-            bounds: &tick.barrier.bounds,
-            push_back,
+            sides: &barrier.sides,
+            bounds: &barrier.bounds,
+            push_back: push_back(tick.stack, evaluation, barrier, held, multipliers),
+            damping: tick.stack[task].damping(),
         };
-        let solution = self.program.solve(&level, &counted_on, &[], tick.pivots);
+        let all = self.held_before.union(&self.held);
+        let level = counting_on(&all);
+        let solution = self.program.solve(&level, &all, &[], tick.pivots);
         if solution != Solution::Optimal || self.recursion == Recursion::Chiaverini {
             return solution;
         }
         // The damping counts on held sides, and by that may be what makes one seem to move inward.
         // It is released only if it also does when the damping does not count on it.
-        let remaining = still_held(&level, &self.program, &counted_on);
-        if remaining == counted_on {
+        let remaining = still_held(&level, &self.program, &all);
+        if remaining == all {
             return solution;
         }
-        let solution = self.program.solve(&level, &remaining, &[], tick.pivots);
-        self.returning.clear();
-        let returns = |side| counted_on.contains(side) && !remaining.contains(side);
+        let without = counting_on(&remaining);
+        let solution = self.program.solve(&without, &remaining, &[], tick.pivots);
         let binding = self.program.binding().map(|(i, _)| i);
+        self.returning.clear();
         self.returning
-            .extend(binding.filter(|&i| returns(level.sides.get(i))));
-        if solution != Solution::Optimal || self.returning.is_empty() {
+            .extend(binding.filter(|&i| all.contains(level.sides.get(i))));
+        let returns = |&i: &usize| !remaining.contains(level.sides.get(i));
+        if solution != Solution::Optimal || !self.returning.iter().any(returns) {
             return solution;
         }
         self.program
-            .solve(&level, &counted_on, &self.returning, tick.pivots)
+            .solve(&level, &all, &self.returning, tick.pivots)
     }
 
-    /// Σ μ c over the sides, with the multipliers of the last tick.
-    fn push_back(&self, tick: &NearestTick<'_>, place: usize) -> f64 {
-        let multipliers = &self.multipliers[place * 2 * self.tasks..];
-        let pushes = tick
-            .barrier
-            .iter()
-            .map(|(side, _, _)| match multipliers[side.number()] {
-                0.0 => 0.0,
-                multiplier => {
-                    let sigma = tick.evaluation.scalar(side.task);
-                    multiplier.abs() * tick.stack[side.task].task().bend(sigma)
-                }
-            });
-        pushes.sum()
+    /// A level that has had its turn claims its motions from those below.
+    fn claim(&mut self, tick: &NearestTick<'_>, place: usize) {
+        let task = self.lower[place];
+        let turn = Turn {
+            task,
+            jacobian: tick.evaluation.known_jacobian(task),
+            unmet: &self.unmet,
+        };
+        if self.recursion == Recursion::SicilianoSlotine {
+            let multipliers = &self.multipliers[place * 2 * self.tasks..];
+            self.above.claim_rest(
+                tick.stack,
+                tick.evaluation.kinematics(),
+                &turn,
+                &tick.barrier.sides,
+                |side| multipliers[side.number()],
+            );
+        }
+        self.above.claim(&turn);
     }
 
     /// Which sides bind, and how hard.
@@ -266,6 +301,23 @@ impl Nearest {
             }
         }
     }
+}
+
+/// Σ μ c over the sides held, with the multipliers of the last tick.
+fn push_back(
+    stack: &Stack,
+    evaluation: &Evaluation,
+    barrier: &Barrier,
+    held: &Held,
+    multipliers: &[f64],
+) -> f64 {
+    let pushing = |side: &Side| multipliers[side.number()] != 0.0 && held.contains(*side);
+    let sides = barrier.sides.iter().map(|(side, _)| side);
+    let pushes = sides.filter(pushing).map(|side| {
+        let bend = stack[side.task].task().bend(evaluation.scalar(side.task));
+        multipliers[side.number()].abs() * bend
+    });
+    pushes.sum()
 }
 
 /// The sides counted on that the solution does not release.
