@@ -9,6 +9,7 @@
 use alloc::vec::Vec;
 
 use crate::active::ActiveSet;
+use crate::damping::Damping;
 use crate::evaluation::Evaluation;
 use crate::linalg::{Damped, MinimumNorm, RowSpace, add_scaled, copy, dot};
 use crate::real::sqrt;
@@ -32,6 +33,8 @@ pub(crate) struct Hierarchy {
     /// J⁺ σ̇_ref of each lower level: the same in every mode, so computed once per tick.
     asked: Vec<f64>,
     asked_known: Vec<bool>,
+    /// Directions that each lower level had lost in the last velocity.
+    lost: Vec<usize>,
     /// σ̇_ref of the level at hand.
     rate: Vec<f64>,
     /// N J⁺ σ̇_ref of the level at hand.
@@ -64,6 +67,7 @@ impl Hierarchy {
             rows: alloc::vec![0.0; max_rows * dof],
             asked: alloc::vec![0.0; lower.len() * dof],
             asked_known: alloc::vec![false; lower.len()],
+            lost: alloc::vec![0; lower.len()],
             lower,
             rate: alloc::vec![0.0; max_rows],
             projected: alloc::vec![0.0; dof],
@@ -100,6 +104,12 @@ impl Hierarchy {
         true
     }
 
+    /// The lower levels that had lost directions in the last velocity, and how many.
+    pub(crate) fn lost(&self) -> impl Iterator<Item = (TaskId, usize)> {
+        let levels = self.lower.iter().copied().zip(self.lost.iter().copied());
+        levels.filter(|(_, lost)| *lost > 0)
+    }
+
     /// Number of independent frozen rows.
     pub(crate) fn frozen(&self) -> usize {
         self.above.rank()
@@ -130,6 +140,7 @@ impl Hierarchy {
         for place in 0..self.lower.len() {
             let task = self.lower[place];
             if stack[task].interval().is_some() && !active.contains(task) {
+                self.lost[place] = 0;
                 continue;
             }
             // The rows of a level are stacked when there is a level below that must respect them.
@@ -138,7 +149,7 @@ impl Hierarchy {
             }
             match self.recursion {
                 Recursion::Chiaverini => self.add_projected(stack, evaluation, place, velocity),
-                Recursion::SicilianoSlotine => self.add_fitted(stack, evaluation, task, velocity),
+                Recursion::SicilianoSlotine => self.add_fitted(stack, evaluation, place, velocity),
             }
         }
         self.above.truncate(frozen);
@@ -156,12 +167,31 @@ impl Hierarchy {
         if !self.asked_known[place] {
             let task = self.lower[place];
             let rate = rate_asked(stack, evaluation, task, &mut self.rate);
-            self.minimum_norm
-                .solve(evaluation.jacobian(stack, task), rate, asked);
+            let jacobian = evaluation.jacobian(stack, task);
+            let damping = stack[task]
+                .damping()
+                .or_else(Damping::of_search(Recursion::Chiaverini));
+            self.lost[place] = if damping == Damping::None {
+                rate.len() - self.minimum_norm.solve(jacobian, rate, asked)
+            } else {
+                asked.fill(0.0);
+                let variable = self.period * sqrt(dot(rate, rate));
+                self.damped.add(damping, jacobian, rate, variable, asked);
+                self.damped.lost()
+            };
             self.asked_known[place] = true;
         }
         copy(&mut self.projected, asked);
-        self.above.project_out(&mut self.projected);
+        self.add_strictly_below(velocity);
+    }
+
+    /// q̇ += N v for the motion v at hand.
+    fn add_strictly_below(&mut self, velocity: &mut [f64]) {
+        // Near a singularity v may be much longer than N v; the second time takes out what rounding
+        // has left of the rows above.
+        for _ in 0..2 {
+            self.above.project_out(&mut self.projected);
+        }
         add_scaled(velocity, 1.0, &self.projected);
     }
 
@@ -170,11 +200,12 @@ impl Hierarchy {
         &mut self,
         stack: &Stack,
         evaluation: &mut Evaluation,
-        task: TaskId,
+        place: usize,
         velocity: &mut [f64],
     ) {
+        let task = self.lower[place];
         let gap = rate_asked(stack, evaluation, task, &mut self.rate);
-        let lambda_squared = self.period * sqrt(dot(gap, gap));
+        let variable = self.period * sqrt(dot(gap, gap));
         let jacobian = evaluation.jacobian(stack, task);
         let rows = &mut self.rows[..jacobian.len()];
         rows.copy_from_slice(jacobian);
@@ -182,12 +213,17 @@ impl Hierarchy {
             *gap -= dot(row, velocity);
             self.above.project_out(row);
         }
-        if self.damped.is_regular(rows) {
-            self.damped.add_regular(rows, gap, velocity);
-        } else {
-            self.damped
-                .add_by_direction(rows, gap, lambda_squared, velocity);
+        self.projected.fill(0.0);
+        let motion = &mut self.projected;
+        let damping = stack[task]
+            .damping()
+            .or_else(Damping::of_search(Recursion::SicilianoSlotine));
+        let is_fixed = matches!(damping, Damping::Fixed(_));
+        if is_fixed || self.damped.add_if_regular(rows, gap, motion).is_none() {
+            self.damped.add(damping, rows, gap, variable, motion);
         }
+        self.lost[place] = self.damped.lost();
+        self.add_strictly_below(velocity);
     }
 }
 

@@ -211,14 +211,14 @@ impl Kinematics {
             self.twists.first_chunk(),
         ) {
             // Six joints are the common case, and a loop of known length the fast one.
-            fill_pairs::<3>(pairs, twists, entry);
+            fill_pairs::<3>(pairs, twists, &entry);
         } else {
             for (values, twists) in pairs.iter_mut().zip(&self.twists) {
                 *values = [entry(twists, 0), entry(twists, 1)];
             }
-            if let ([value], Some(twists)) = (last, self.twists.last()) {
-                *value = entry(twists, 0);
-            }
+        }
+        if let ([value], Some(twists)) = (last, self.twists.last()) {
+            *value = entry(twists, 0);
         }
         for still in &mut row[self.joints_before(frame)..] {
             *still = 0.0;

@@ -43,9 +43,9 @@ const HALVINGS: usize = 2;
 /// takes more kinematics than another.
 const CAUTION: f64 = 0.125;
 
-/// Shares of the margin that a correction is content with where it cannot have all of it. Two bounds may
+/// Share of the margin that a correction is content with where it cannot have all of it. Two bounds may
 /// be closer than two margins: those of sets that were never entered and contradict each other.
-const MARGIN_SHARES: [f64; 2] = [0.5, 0.0625];
+const LEAST_SHARE: f64 = 0.5;
 
 /// What it took to land.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -255,15 +255,12 @@ impl Landing {
             let (held, rows) = attempt;
             !attempts[..i].contains(&attempt) && self.change_by_least(approach, held, rows, qd)
         });
-        let mut share = 1.0;
-        with_margin
-            || MARGIN_SHARES.into_iter().any(|less| {
-                for bound in &mut self.bounds[..sides] {
-                    *bound -= (share - less) * MARGIN / self.period;
-                }
-                share = less;
-                self.change_by_least(approach, 0, sides, qd)
-            })
+        with_margin || {
+            for bound in &mut self.bounds[..sides] {
+                *bound -= (1.0 - LEAST_SHARE) * MARGIN / self.period;
+            }
+            self.change_by_least(approach, 0, sides, qd)
+        }
     }
 
     /// q̇ += the least change under the first `rows` rows, the first `held` held sides met exactly.

@@ -3,178 +3,169 @@
 
 mod oracle;
 
-use conik::{
-    Axis, Controller, Coordinate, Distance, FieldOfView, Interval, JointPosition, JointVec,
-    ModeRule, Position, Robot, Settings, Stack, StackError, TaskId,
-};
-use oracle::{Goal, Measure, Task};
+use conik::{JointVec, ModeRule, Recursion, Settings};
+use oracle::arm::Arm;
+use oracle::enumeration;
+use oracle::high_priority;
+use oracle::scene::{Scene, any_arm, at_the_border, near_the_border, scene};
 use proptest::prelude::*;
-use proptest::strategy::Union;
 
 /// Largest difference of a joint velocity [rad/s].
 const TOLERANCE: f64 = 1e-9;
 
+/// The same for fitted levels, where the oracle solves normal equations whose least eigenvalue is l₀² = 1e-6.
+const FITTED_TOLERANCE: f64 = 1e-7;
+
 /// Nearer to a singularity than this, rounding alone moves the velocities by more than the tolerance.
 const SINGULAR: f64 = 1e-2;
 
-fn point() -> impl Strategy<Value = [f64; 3]> {
-    [-0.6..0.6, -0.6..0.6, -0.5..0.6_f64]
-}
-
-fn scalar_measure() -> impl Strategy<Value = Measure> {
-    prop_oneof![
-        (0..3_usize).prop_map(Measure::Coordinate),
-        point().prop_map(Measure::Distance),
-        prop::array::uniform3(-1.0..1.0_f64)
-            .prop_filter("a direction", |d| d.iter().any(|v| v.abs() > 0.1))
-            .prop_map(Measure::FieldOfView),
-        (0..6_usize).prop_map(Measure::Joint),
-    ]
-}
-
-/// A set-based task whose border lies near the value at `q`, so that it soon matters.
-fn set(q: [f64; 6]) -> impl Strategy<Value = Task> {
-    (
-        scalar_measure(),
-        prop_oneof![-0.1..-0.01, 0.001..0.3_f64],
-        0..3_u8,
-        0.2..2.0_f64,
-    )
-        .prop_map(move |(measure, margin, sides, gain)| {
-            let sigma = oracle::measure(measure, &q).0[0];
-            let (min, max) = match sides {
-                0 => (sigma - margin, f64::INFINITY),
-                1 => (f64::NEG_INFINITY, sigma + margin),
-                _ => (sigma - margin, sigma - margin + 0.4),
-            };
-            Task {
-                measure,
-                goal: Goal::Set(min, max),
-                gain,
-            }
-        })
-}
-
-fn equality() -> impl Strategy<Value = Task> {
-    let position = (point(), 0.2..1.0_f64).prop_map(|(target, gain)| Task {
-        measure: Measure::Position,
-        goal: Goal::Equality(target.to_vec()),
-        gain,
-    });
-    let scalar =
-        (scalar_measure(), 0.0..0.8_f64, 0.2..1.0_f64).prop_map(|(measure, desired, gain)| Task {
-            measure,
-            goal: Goal::Equality(vec![desired]),
-            gain,
-        });
-    Union::new_weighted(vec![(3, position.boxed()), (2, scalar.boxed())])
-}
-
-#[derive(Clone, Debug)]
-struct Scene {
-    q0: [f64; 6],
-    tasks: Vec<Task>,
-}
-
-/// Up to ten tasks: sets above, then equality tasks and sets in any order.
-fn scene(max_high: usize, max_lower: usize) -> impl Strategy<Value = Scene> {
-    prop::array::uniform6(prop_oneof![-2.9..-0.2, 0.2..2.9_f64]).prop_flat_map(move |q0| {
-        let high = prop::collection::vec(set(q0), 0..=max_high);
-        let lower = prop::collection::vec(prop_oneof![equality(), set(q0)], 0..=max_lower);
-        (high, equality(), lower).prop_map(move |(mut tasks, first, lower)| {
-            tasks.push(first);
-            tasks.extend(lower);
-            Scene { q0, tasks }
-        })
-    })
-}
-
-fn add(stack: &mut Stack, name: &str, task: &Task) -> Result<TaskId, StackError> {
-    match task.measure {
-        Measure::Position => add_as(stack, name, task, Position::of_tool()),
-        Measure::Coordinate(k) => add_as(
-            stack,
-            name,
-            task,
-            Coordinate::of_tool([Axis::X, Axis::Y, Axis::Z][k]),
-        ),
-        Measure::Distance(point) => add_as(stack, name, task, Distance::of_tool_to(point)),
-        Measure::FieldOfView(along) => add_as(stack, name, task, FieldOfView::of_tool_along(along)),
-        Measure::Joint(i) => add_as(stack, name, task, JointPosition::of(i)),
-    }
-}
-
-fn add_as(
-    stack: &mut Stack,
-    name: &str,
-    task: &Task,
-    measure: impl conik::Task,
-) -> Result<TaskId, StackError> {
-    match &task.goal {
-        Goal::Equality(desired) => stack.equality(name, measure, desired, task.gain),
-        &Goal::Set(min, max) => {
-            stack.set_with_gain(name, measure, Interval { min, max }, task.gain)
-        }
-    }
+/// What is compared.
+#[derive(Clone, Copy)]
+struct Compared<'a> {
+    rule: ModeRule,
+    recursion: Recursion,
+    exclusive: &'a [(usize, usize)],
+    ticks: usize,
 }
 
 /// Follows the crate's own trajectory and compares every tick with the oracle at the same q.
-fn assert_same_modes_and_velocities(
-    scene: &Scene,
-    rule: ModeRule,
-    ticks: usize,
-) -> Result<(), TestCaseError> {
-    let robot = Robot::builtin("ur5-paper").expect("built in");
-    let mut stack = Stack::new(&robot);
-    for (i, task) in scene.tasks.iter().enumerate() {
-        add(&mut stack, &format!("task_{i}"), task).expect("sound tasks");
-    }
+fn assert_same(scene: &Scene, compared: Compared<'_>) -> Result<(), TestCaseError> {
     let settings = Settings {
-        mode_rule: rule,
+        mode_rule: compared.rule,
+        recursion: compared.recursion,
         ..Settings::of_the_paper()
     };
-    let mut controller = Controller::new(&robot, stack, settings).expect("sound settings");
-    let mut q = JointVec::from(scene.q0);
-    for tick in 0..ticks {
-        let expected = oracle::step(&scene.tasks, &q, rule == ModeRule::Border);
+    let oracle = enumeration::Scene {
+        arm: &scene.arm,
+        tasks: &scene.tasks,
+        exclusive: compared.exclusive,
+        border: compared.rule == ModeRule::Border,
+        recursion: compared.recursion,
+        period: 1.0 / settings.rate_hz,
+    };
+    let mut controller = scene.controller_excluding(settings, compared.exclusive);
+    let tolerance = match compared.recursion {
+        Recursion::Chiaverini => TOLERANCE,
+        _ => FITTED_TOLERANCE,
+    };
+    let mut q = JointVec::from_slice(&scene.q0).expect("few joints");
+    for tick in 0..compared.ticks {
+        let expected = oracle.step(&q);
         if expected.conditioning < SINGULAR {
             break;
         }
         let step = controller.step(&q).expect("finite configuration");
+        prop_assert_eq!(step.no_mode, expected.active.is_none());
         let chosen = step
             .active
             .iter()
             .fold(0_u32, |bits, task| bits | 1 << task.index());
-        prop_assert_eq!(chosen, expected.active, "tick {}, q {:?}", tick, q);
+        let prescribed = expected.active.unwrap_or(0);
+        prop_assert_eq!(chosen, prescribed, "tick {}, q {:?}", tick, q);
         for (a, b) in step.qd.iter().zip(expected.qd.iter()) {
             prop_assert!(
-                (a - b).abs() <= TOLERANCE,
+                (a - b).abs() <= tolerance * (1.0 + b.abs()),
                 "tick {tick}: {:?} instead of {:?}",
                 step.qd,
                 expected.qd
             );
         }
+        prop_assert!(step.modes_evaluated <= most_modes(scene, &oracle, &q));
         q = step.q_ref;
     }
     Ok(())
+}
+
+/// Σₖ C(h, k) 2ˡ, k = 0 … min(h, joints): h and l high- and low-priority sets may be active.
+fn most_modes(scene: &Scene, oracle: &enumeration::Scene<'_>, q: &[f64]) -> usize {
+    let first_equality = high_priority(&scene.tasks);
+    let candidates: Vec<usize> = (0..scene.tasks.len())
+        .filter(|&i| oracle.may_be_active(i, q))
+        .collect();
+    let high = candidates.iter().filter(|&&i| i < first_equality).count();
+    let low = candidates.len() - high;
+    let mut binomial = 1;
+    let mut sum = 0;
+    for k in 0..=high.min(scene.arm.dof()) {
+        sum += binomial;
+        binomial = binomial * (high - k) / (k + 1);
+    }
+    sum << low
+}
+
+fn ur5_scene(max_high: usize, max_lower: usize) -> impl Strategy<Value = Scene> {
+    scene(Just(Arm::ur5()), near_the_border(), max_high, max_lower)
+}
+
+/// Pairs of sets of a scene that exclude each other: every two among those whose bit is set.
+fn exclusive_group(scene: &Scene, members: u16) -> Vec<(usize, usize)> {
+    let group: Vec<usize> = (0..scene.tasks.len())
+        .filter(|&i| scene.tasks[i].bounds().is_some() && members & 1 << i != 0)
+        .collect();
+    let pairs = |a: usize| group.iter().filter(move |&&b| a < b).map(move |&b| (a, b));
+    group.iter().flat_map(|&a| pairs(a)).collect()
+}
+
+fn recursion() -> impl Strategy<Value = Recursion> {
+    prop_oneof![
+        Just(Recursion::Chiaverini),
+        Just(Recursion::SicilianoSlotine)
+    ]
+}
+
+fn compared(rule: ModeRule, recursion: Recursion, ticks: usize) -> Compared<'static> {
+    Compared {
+        rule,
+        recursion,
+        exclusive: &[],
+        ticks,
+    }
 }
 
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(200))]
 
     #[test]
-    fn paper_rule_equals_full_enumeration(scene in scene(5, 3)) {
-        assert_same_modes_and_velocities(&scene, ModeRule::Paper, 25)?;
+    fn paper_rule_equals_full_enumeration(scene in ur5_scene(5, 3)) {
+        assert_same(&scene, compared(ModeRule::Paper, Recursion::Chiaverini, 25))?;
     }
 
     #[test]
-    fn border_rule_equals_full_enumeration(scene in scene(5, 3)) {
-        assert_same_modes_and_velocities(&scene, ModeRule::Border, 25)?;
+    fn border_rule_equals_full_enumeration(scene in ur5_scene(5, 3)) {
+        assert_same(&scene, compared(ModeRule::Border, Recursion::Chiaverini, 25))?;
+    }
+
+    #[test]
+    fn fitted_levels_equal_full_enumeration(scene in ur5_scene(5, 3), border: bool) {
+        let rule = if border { ModeRule::Border } else { ModeRule::Paper };
+        assert_same(&scene, compared(rule, Recursion::SicilianoSlotine, 25))?;
     }
 
     /// More sets than joints, so that frozen rows must depend on each other.
     #[test]
-    fn many_sets_equal_full_enumeration(scene in scene(8, 1)) {
-        assert_same_modes_and_velocities(&scene, ModeRule::Paper, 6)?;
+    fn many_sets_equal_full_enumeration(scene in ur5_scene(8, 1)) {
+        assert_same(&scene, compared(ModeRule::Paper, Recursion::Chiaverini, 6))?;
+    }
+
+    /// As many as full enumeration can bear, all as good as at their border.
+    #[test]
+    fn ten_sets_at_their_border_equal_full_enumeration(
+        scene in scene(any_arm(), at_the_border(), 8, 2),
+        recursion in recursion(),
+    ) {
+        assert_same(&scene, compared(ModeRule::Border, recursion, 4))?;
+    }
+
+    #[test]
+    fn exclusive_groups_equal_full_enumeration(
+        scene in ur5_scene(5, 3),
+        members: u16,
+        recursion in recursion(),
+        border: bool,
+    ) {
+        let exclusive = exclusive_group(&scene, members);
+        let rule = if border { ModeRule::Border } else { ModeRule::Paper };
+        let compared = Compared { exclusive: &exclusive, ..compared(rule, recursion, 15) };
+        assert_same(&scene, compared)?;
     }
 }

@@ -107,6 +107,17 @@ fn assert_jacobians_are_derivatives(robot: &Robot, q: &[f64]) -> Result<(), Test
 
 proptest! {
     #[test]
+    fn jacobians_are_derivatives_whatever_the_number_of_joints(
+        dof in 6_usize..=9,
+        q in prop::array::uniform9(-1.5..1.5_f64),
+    ) {
+        let rows: Vec<DhRow> = (0..dof)
+            .map(|i| DhRow::new(0.1, [1.2, -0.7, 0.4][i % 3], 0.05))
+            .collect();
+        assert_jacobians_are_derivatives(&Robot::from_dh("arm", &rows).expect("sound"), &q[..dof])?;
+    }
+
+    #[test]
     fn jacobians_are_derivatives_on_the_ur5(q in prop::array::uniform6(-3.0..3.0_f64)) {
         assert_jacobians_are_derivatives(&Robot::builtin("ur5-paper").expect("built in"), &q)?;
     }

@@ -5,6 +5,7 @@ use crate::active::ActiveSet;
 use crate::linalg::dot;
 use crate::reason::Reason;
 use crate::sides::Side;
+use crate::step::Step;
 use crate::task_id::TaskId;
 
 impl Controller {
@@ -21,6 +22,10 @@ impl Controller {
                 let reason = self.why_let_go(task);
                 self.step.add_reason(reason);
             }
+        }
+        match &self.rule {
+            Rule::Search(search) => add_lost(&mut self.step, search.lost()),
+            Rule::Nearest(nearest) => add_lost(&mut self.step, nearest.lost()),
         }
         self.step.explain_motion();
         if self.step.no_mode {
@@ -72,5 +77,11 @@ impl Controller {
         let moves = self.here.drift(side.task) - self.borders.bound_rate(side);
         let row = self.here.jacobian(&self.stack, side.task);
         side.inward(dot(row, &self.step.qd) + moves)
+    }
+}
+
+fn add_lost(step: &mut Step, lost: impl Iterator<Item = (TaskId, usize)>) {
+    for (task, directions) in lost {
+        step.add_reason(Reason::LosesRank { task, directions });
     }
 }

@@ -13,12 +13,14 @@
 
 use alloc::vec::Vec;
 
+use crate::damping::Damping;
+
 use super::symmetric::{eigenvectors, factor, solve};
-use super::{add_scaled, dot};
+use super::{COMMON, add_scaled, dot};
 use crate::real::sqrt;
 
 /// l₀: weight of the velocity itself [task's unit per rad].
-const STRICT: f64 = 1e-3;
+pub(super) const STRICT: f64 = 1e-3;
 
 /// ε: singular values below this are damped [task's unit per rad].
 pub(crate) const SINGULAR: f64 = 0.2;
@@ -38,6 +40,18 @@ pub(crate) struct Damped {
     hessian: Vec<f64>,
     dof: usize,
     count: usize,
+    lost: usize,
+}
+
+/// wⱼ of a direction with this squared singular value, `least` being the smallest of all.
+fn weight(damping: Damping, squared: f64, least: f64) -> f64 {
+    let undamped = |squared: f64| (squared.max(0.0) / (SINGULAR * SINGULAR)).min(1.0);
+    match damping {
+        Damping::None => 1.0,
+        Damping::Fixed(_) => 0.0,
+        Damping::Smallest => undamped(least),
+        Damping::Automatic | Damping::PerDirection => undamped(squared),
+    }
 }
 
 impl Damped {
@@ -51,6 +65,7 @@ impl Damped {
             hessian: alloc::vec![0.0; dof * dof],
             dof,
             count: 0,
+            lost: 0,
         }
     }
 
@@ -73,61 +88,57 @@ impl Damped {
         factor(&mut self.gram, self.count)
     }
 
-    /// x += the solution for rows all of whose directions are undamped: Aᵀ (A Aᵀ + l₀² I)⁻¹ g.
-    pub(crate) fn add_regular(&mut self, rows: &[f64], g: &[f64], x: &mut [f64]) {
-        self.fill_gram(rows, STRICT * STRICT);
-        let n = self.count;
-        self.rhs[..n].copy_from_slice(g);
-        // Positive definite by the shift, unless a task gave NaN, which shows in x.
-        factor(&mut self.gram, n);
-        solve(&self.gram, n, &mut self.rhs[..n]);
-        for (row, y) in rows.chunks_exact(self.dof).zip(&self.rhs[..n]) {
-            add_scaled(x, *y, row);
-        }
-    }
-
-    /// x += Aᵀ (A Aᵀ + (1 − (s/ε)²) λ² I)⁻¹ g, s the smallest singular value: all directions damped
-    /// alike, more the nearer the rows are to losing rank.
-    pub(crate) fn add_damped(
+    /// If no direction of the rows needs damping, x += Aᵀ w with w = (A Aᵀ + l₀² I)⁻¹ g, and w.
+    #[inline]
+    pub(crate) fn add_if_regular(
         &mut self,
         rows: &[f64],
         g: &[f64],
-        lambda_squared: f64,
+        x: &mut [f64],
+    ) -> Option<&[f64]> {
+        let Self {
+            gram, rhs: w, dof, ..
+        } = self;
+        // The same code each time; known sizes let the compiler unroll it.
+        let is_regular = match (g.len(), *dof) {
+            (1, COMMON) => add_if_regular(1, COMMON, gram, rows, g, w, x),
+            (3, COMMON) => add_if_regular(3, COMMON, gram, rows, g, w, x),
+            (count, dof) => add_if_regular(count, dof, gram, rows, g, w, x),
+        };
+        self.lost = usize::from(!is_regular);
+        is_regular.then_some(&self.rhs[..g.len()])
+    }
+
+    /// x ← (A Aᵀ + l₀² I)⁻¹ x for the rows that were last found to need no damping.
+    pub(crate) fn solve_regular(&self, x: &mut [f64]) {
+        solve(&self.gram[..x.len() * x.len()], x.len(), x);
+    }
+
+    /// x += the solution for rows that may all be used: Σⱼ yⱼ sⱼ (uⱼ g) / (sⱼ² + l₀² + (1 − wⱼ) λ²).
+    pub(crate) fn add(
+        &mut self,
+        damping: Damping,
+        rows: &[f64],
+        g: &[f64],
+        variable: f64,
         x: &mut [f64],
     ) {
+        let lambda_squared = damping.lambda_squared(variable);
         self.fill_gram(rows, 0.0);
         let n = self.count;
         eigenvectors(&mut self.gram, n, &mut self.eigenvectors);
         let least = (0..n)
             .map(|k| self.gram[k * n + k])
-            .fold(f64::INFINITY, f64::min)
-            .max(0.0);
-        let shift =
-            lambda_squared * (1.0 - least / (SINGULAR * SINGULAR)).max(0.0) + STRICT * STRICT;
-        self.fill_gram(rows, shift);
-        self.rhs[..n].copy_from_slice(g);
-        factor(&mut self.gram, n);
-        solve(&self.gram, n, &mut self.rhs[..n]);
-        for (row, y) in rows.chunks_exact(self.dof).zip(&self.rhs[..n]) {
-            add_scaled(x, *y, row);
-        }
-    }
-
-    /// x += the solution for rows that may all be used, every direction damped by its own singular
-    /// value: Σⱼ yⱼ sⱼ (uⱼ g) / (sⱼ² + l₀² + (1 − wⱼ) λ²).
-    pub(crate) fn add_by_direction(
-        &mut self,
-        rows: &[f64],
-        g: &[f64],
-        lambda_squared: f64,
-        x: &mut [f64],
-    ) {
-        self.fill_gram(rows, 0.0);
-        let n = self.count;
-        eigenvectors(&mut self.gram, n, &mut self.eigenvectors);
+            .fold(f64::INFINITY, f64::min);
+        self.lost = 0;
         for k in 0..n {
-            let squared = self.gram[k * n + k].max(0.0);
-            let weight = (squared / (SINGULAR * SINGULAR)).min(1.0);
+            let squared = self.gram[k * n + k];
+            self.lost += usize::from(squared < SINGULAR * SINGULAR);
+            if squared <= NO_DIRECTION * NO_DIRECTION {
+                // What rounding leaves of rows that are taken is no direction to move in.
+                continue;
+            }
+            let weight = weight(damping, squared, least);
             let vector = &self.eigenvectors[k * n..][..n];
             let share =
                 dot(vector, g) / (squared + STRICT * STRICT + (1.0 - weight) * lambda_squared);
@@ -137,14 +148,25 @@ impl Damped {
         }
     }
 
+    /// How many directions of the rows had a singular value below ε when they were last looked at.
+    pub(crate) fn lost(&self) -> usize {
+        self.lost
+    }
+
     /// Finds the yⱼ and wⱼ of the usable rows.
-    pub(crate) fn analyse(&mut self, usable: &[f64]) {
+    pub(crate) fn analyse(&mut self, damping: Damping, usable: &[f64]) {
         self.fill_gram(usable, 0.0);
         let (dof, n) = (self.dof, self.count);
         eigenvectors(&mut self.gram, n, &mut self.eigenvectors);
+        let least = (0..n)
+            .map(|k| self.gram[k * n + k])
+            .fold(f64::INFINITY, f64::min);
         self.weights.clear();
+        self.lost = 0;
         for k in 0..n {
-            let singular = sqrt(self.gram[k * n + k].max(0.0));
+            let squared = self.gram[k * n + k].max(0.0);
+            let singular = sqrt(squared);
+            self.lost += usize::from(singular < SINGULAR);
             if singular <= NO_DIRECTION {
                 continue;
             }
@@ -157,8 +179,7 @@ impl Damped {
             {
                 add_scaled(direction, share / singular, row);
             }
-            let ratio = singular / SINGULAR;
-            self.weights.push((ratio * ratio).min(1.0));
+            self.weights.push(weight(damping, squared, least));
         }
     }
 
@@ -234,4 +255,47 @@ impl Damped {
             }
         }
     }
+}
+
+#[inline(always)]
+#[allow(clippy::inline_always, reason = "for the sake of known sizes")]
+fn add_if_regular(
+    count: usize,
+    dof: usize,
+    gram: &mut [f64],
+    rows: &[f64],
+    g: &[f64],
+    w: &mut [f64],
+    x: &mut [f64],
+) -> bool {
+    let (rows, x) = (&rows[..count * dof], &mut x[..dof]);
+    let (gram, w) = (&mut gram[..count * count], &mut w[..count]);
+    let row = |i: usize| &rows[i * dof..][..dof];
+    // The factor needs only the lower triangle. The upper one keeps the matrix itself, w its diagonal.
+    for i in 0..count {
+        for j in 0..i {
+            let entry = dot(row(i), row(j));
+            gram[i * count + j] = entry;
+            gram[j * count + i] = entry;
+        }
+        w[i] = dot(row(i), row(i));
+        gram[i * count + i] = w[i] - SINGULAR * SINGULAR;
+    }
+    if !factor(gram, count) {
+        return false;
+    }
+    for i in 0..count {
+        for j in 0..i {
+            gram[i * count + j] = gram[j * count + i];
+        }
+        gram[i * count + i] = w[i] + STRICT * STRICT;
+    }
+    // Positive definite by the shift, unless a task gave NaN, which shows in x.
+    factor(gram, count);
+    w.copy_from_slice(&g[..count]);
+    solve(gram, count, w);
+    for i in 0..count {
+        add_scaled(x, w[i], row(i));
+    }
+    true
 }

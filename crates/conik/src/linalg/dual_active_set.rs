@@ -16,7 +16,7 @@ use super::{add_scaled, dot};
 use crate::real::sqrt;
 
 /// A row counts as violated below this [unit/s].
-const VIOLATION: f64 = 1e-11;
+pub(crate) const VIOLATION: f64 = 1e-11;
 
 /// A row of which less than this share is left beside the active ones depends on them.
 const DEPENDENT: f64 = 1e-9;
@@ -86,11 +86,6 @@ impl DualActiveSet {
     pub(crate) fn basis_mut(&mut self, dimension: usize) -> &mut [f64] {
         self.dimension = dimension;
         &mut self.basis[..dimension * self.dof]
-    }
-
-    /// Forgets the last solution.
-    pub(crate) fn clear(&mut self) {
-        self.active.clear();
     }
 
     /// Indices of the rows that hold with equality, in the order in which they were added.

@@ -3,12 +3,14 @@
 
 mod damped;
 mod dual_active_set;
+mod held_fit;
 mod minimum_norm;
 mod row_space;
 mod symmetric;
 
 pub(crate) use damped::Damped;
-pub(crate) use dual_active_set::{Constraints, DualActiveSet, Solution};
+pub(crate) use dual_active_set::{Constraints, DualActiveSet, Solution, VIOLATION};
+pub(crate) use held_fit::{HeldFit, HeldProblem};
 pub(crate) use minimum_norm::MinimumNorm;
 pub(crate) use row_space::RowSpace;
 

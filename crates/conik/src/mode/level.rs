@@ -16,8 +16,10 @@
 use alloc::vec::Vec;
 
 use super::claims::Claims;
+use crate::damping::Damping;
 use crate::linalg::{
-    Constraints, Damped, DualActiveSet, MinimumNorm, RowSpace, Solution, add_scaled, dot,
+    Constraints, Damped, DualActiveSet, HeldFit, HeldProblem, MinimumNorm, RowSpace, Solution,
+    VIOLATION, add_scaled, copy, dot,
 };
 use crate::real::sqrt;
 use crate::settings::{Recursion, Settings};
@@ -33,9 +35,14 @@ pub(crate) struct LevelProgram {
     period: f64,
     solver: DualActiveSet,
     damped: Damped,
+    held_fit: HeldFit,
     minimum_norm: MinimumNorm,
     /// The answer.
     velocity: Vec<f64>,
+    /// The sides, by index, that bind in it, with their multipliers.
+    binding: Vec<(usize, f64)>,
+    /// Whether the held fit was the solution, and not the solver's.
+    is_closed_form: bool,
     /// J, or J N and the motions that are dear to the levels above.
     rows: Vec<f64>,
     /// What of J N is left beside the held sides.
@@ -44,6 +51,8 @@ pub(crate) struct LevelProgram {
     gap: Vec<f64>,
     /// Rows of the levels above and of the held sides.
     taken: RowSpace,
+    /// The held sides, by index, of which a row was taken.
+    held: Vec<usize>,
     /// Orthonormal rows that span the free motions.
     free: Vec<f64>,
     dof: usize,
@@ -64,6 +73,7 @@ pub(crate) struct Level<'a> {
     pub(crate) bounds: &'a [f64],
     /// Σ μ c [task's unit/s].
     pub(crate) push_back: f64,
+    pub(crate) damping: Damping,
 }
 
 impl LevelProgram {
@@ -79,12 +89,16 @@ impl LevelProgram {
             period: 1.0 / settings.rate_hz,
             solver: DualActiveSet::new(dof),
             damped: Damped::new(dof, max_rows),
+            held_fit: HeldFit::new(dof, max_rows),
             minimum_norm: MinimumNorm::new(dof, max_rows),
             velocity: alloc::vec![0.0; dof],
+            binding: Vec::with_capacity(dof),
+            is_closed_form: false,
             rows: Vec::with_capacity((max_rows + stack.len() * dof) * dof),
             usable: Vec::with_capacity(max_rows * dof),
             gap: Vec::with_capacity(max_rows + stack.len() * dof),
             taken: RowSpace::new(dof, max_rows),
+            held: Vec::with_capacity(dof),
             free: alloc::vec![0.0; dof * dof],
             dof,
         }
@@ -99,12 +113,13 @@ impl LevelProgram {
         equal: &[usize],
         pivots: &mut usize,
     ) -> Solution {
-        self.solver.clear();
+        self.binding.clear();
+        self.is_closed_form = false;
         self.rows.clear();
         self.rows.extend_from_slice(level.jacobian);
         self.gap.clear();
         self.gap.extend_from_slice(level.asked);
-        self.velocity.copy_from_slice(level.from);
+        copy(&mut self.velocity, level.from);
         match self.recursion {
             Recursion::Chiaverini => self.project(level),
             Recursion::SicilianoSlotine => {
@@ -118,7 +133,16 @@ impl LevelProgram {
             bounds: level.bounds,
             equalities: equal,
         };
-        self.solver.solve(&mut self.velocity, constraints, pivots)
+        let solution = self.solver.solve(&mut self.velocity, constraints, pivots);
+        let multipliers = self.solver.multipliers().iter().copied();
+        self.binding
+            .extend(self.solver.active().iter().copied().zip(multipliers));
+        solution
+    }
+
+    /// How many directions of the task's the level had lost, or was about to, in the last solution.
+    pub(crate) fn lost(&self) -> usize {
+        self.damped.lost()
     }
 
     /// The velocity of the last solution [rad/s].
@@ -128,18 +152,21 @@ impl LevelProgram {
 
     /// The sides, by index, that bind in the last solution, with their multipliers.
     pub(crate) fn binding(&self) -> impl Iterator<Item = (usize, f64)> {
-        self.solver
-            .active()
-            .iter()
-            .copied()
-            .zip(self.solver.multipliers().iter().copied())
+        self.binding.iter().copied()
     }
 
-    /// The sides, by index, that bind in the last solution, with how far beyond its bound each would go
-    /// [unit/s] if it alone were let go.
+    /// How far beyond its bound each binding side would go [unit/s] if it alone were let go, in the order
+    /// of [`binding`](Self::binding).
     pub(crate) fn crossings(&mut self) -> impl Iterator<Item = (usize, f64)> {
-        (0..self.solver.active().len())
-            .map(|k| (self.solver.active()[k], self.solver.rate_if_released(k)))
+        let rank = self.binding.len();
+        (0..rank).map(move |k| {
+            let rate = if self.is_closed_form {
+                self.held_fit.rate_if_released(k, rank, &self.damped)
+            } else {
+                self.solver.rate_if_released(k)
+            };
+            (self.binding[k].0, rate)
+        })
     }
 
     /// Siciliano and Slotine's recursion: the free minimiser, and a basis in its weight. `true` if the
@@ -154,29 +181,26 @@ impl LevelProgram {
             level.above.rows().project_out(row);
         }
         self.take_held(level, held);
-        let nothing_held = self.taken.rank() == level.above.rows().rank();
-        if nothing_held
-            && !must_hold
-            && level.above.dear().is_empty()
-            && self.damped.is_regular(&self.usable)
-        {
-            self.damped
-                .add_regular(&self.rows, &self.gap, &mut self.velocity);
-            if keeps_every_side(level, &self.velocity) {
-                return true;
-            }
-            self.velocity.copy_from_slice(level.from);
+        let is_fixed = matches!(level.damping, Damping::Fixed(_));
+        let may_fit = !must_hold && !is_fixed && level.above.dear().is_empty();
+        if may_fit && self.fit_held(level) {
+            return true;
         }
+        copy(&mut self.velocity, level.from);
         let asked = sqrt(dot(level.asked, level.asked));
         self.rows.extend_from_slice(level.above.dear());
         self.gap.resize(self.rows.len() / self.dof, 0.0);
+        let damping = level
+            .damping
+            .or_else(Damping::of_cone(Recursion::SicilianoSlotine));
         let least = if level.above.rows().rank() == 0 {
             0.0
         } else {
             LOWER
         };
-        let lambda_squared = (self.period * (asked + level.push_back)).max(least);
-        self.damped.analyse(&self.usable);
+        let variable = (self.period * (asked + level.push_back)).max(least);
+        let lambda_squared = damping.lambda_squared(variable);
+        self.damped.analyse(damping, &self.usable);
         let dimension = level.above.rows().complement(&mut self.free);
         let free = &self.free[..dimension * self.dof];
         let taken = self.taken.basis_from(level.above.rows().rank());
@@ -199,32 +223,65 @@ impl LevelProgram {
     /// taken ← rows of the levels above and of the held sides; usable ← what of J N is left.
     fn take_held(&mut self, level: &Level<'_>, held: &Held) {
         self.taken.copy_from(level.above.rows());
-        for (side, row) in level.sides.iter() {
-            if held.contains(side) {
-                self.taken.push(row);
+        self.held.clear();
+        for (i, (side, row)) in level.sides.iter().enumerate() {
+            if held.contains(side) && self.taken.push(row) {
+                self.held.push(i);
             }
         }
         self.usable.clear();
         self.usable.extend_from_slice(&self.rows);
-        if self.taken.rank() > level.above.rows().rank() {
+        if !self.held.is_empty() {
             for row in self.usable.chunks_exact_mut(self.dof) {
                 self.taken.project_out(row);
             }
         }
     }
 
+    /// The usual tick: what was held binds, and nothing else. `true` if that is so, and the velocity
+    /// then the solution: there is one only, and it is the one that satisfies the conditions for it.
+    fn fit_held(&mut self, level: &Level<'_>) -> bool {
+        let problem = HeldProblem {
+            rows: &self.rows,
+            usable: &self.usable,
+            gap: &self.gap,
+            orthonormal: self.taken.basis_from(level.above.rows().rank()),
+            held: &self.held,
+            sides: level.sides.rows(),
+            bounds: level.bounds,
+        };
+        let is_solution = self
+            .held_fit
+            .solve(problem, &mut self.damped, &mut self.velocity)
+            && keeps_every_side(level, &self.velocity);
+        self.is_closed_form = is_solution;
+        if is_solution {
+            let multipliers = self.held_fit.multipliers().iter().copied();
+            self.binding
+                .extend(self.held.iter().copied().zip(multipliers));
+        }
+        is_solution
+    }
+
     /// Chiaverini's recursion: q̇₀ + N J⁺ s, and an orthonormal basis.
     fn project(&mut self, level: &Level<'_>) {
         let mut motion = [0.0; crate::MAX_JOINTS];
         let motion = &mut motion[..self.dof];
-        if self.damped.is_regular(&self.rows) {
+        let damping = level
+            .damping
+            .or_else(Damping::of_cone(Recursion::Chiaverini));
+        let is_fixed = matches!(damping, Damping::Fixed(_));
+        if damping == Damping::None || (!is_fixed && self.damped.is_regular(&self.rows)) {
             self.minimum_norm.solve(&self.rows, &self.gap, motion);
         } else {
-            let lambda_squared = self.period * sqrt(dot(&self.gap, &self.gap));
+            let variable = self.period * sqrt(dot(&self.gap, &self.gap));
             self.damped
-                .add_damped(&self.rows, &self.gap, lambda_squared, motion);
+                .add(damping, &self.rows, &self.gap, variable, motion);
         }
-        level.above.rows().project_out(motion);
+        // Near a singularity the motion may be much longer than what is left of it: twice is enough.
+        for _ in 0..2 {
+            level.above.rows().project_out(motion);
+        }
         add_scaled(&mut self.velocity, 1.0, motion);
         let dimension = level.above.rows().complement(&mut self.free);
         self.solver
@@ -238,5 +295,5 @@ fn keeps_every_side(level: &Level<'_>, velocity: &[f64]) -> bool {
         .sides
         .iter()
         .zip(level.bounds)
-        .all(|((_, row), bound)| dot(row, velocity) >= *bound)
+        .all(|((_, row), bound)| dot(row, velocity) >= *bound - VIOLATION)
 }

@@ -54,6 +54,8 @@ pub(crate) struct Nearest {
     returning: Vec<usize>,
     /// How fast each side would be left if it were let go [unit/s].
     crossings: Vec<f64>,
+    /// Directions that each lower level has lost.
+    lost: Vec<usize>,
     tasks: usize,
 }
 
@@ -88,6 +90,7 @@ impl Nearest {
             low_active: ActiveSet::EMPTY,
             multipliers: alloc::vec![0.0; 2 * stack.len() * lower.len()],
             above: Claims::new(stack, &lower, max_rows, 1.0 / settings.rate_hz),
+            lost: alloc::vec![0; lower.len()],
             lower,
             asked: Vec::with_capacity(max_rows),
             unmet: Vec::with_capacity(max_rows),
@@ -103,6 +106,7 @@ impl Nearest {
         self.low_active = ActiveSet::EMPTY;
         self.above.clear();
         self.crossings.fill(0.0);
+        self.lost.fill(0);
         velocity.fill(0.0);
         let mut level_above: Option<usize> = None;
         for place in 0..self.lower.len() {
@@ -122,6 +126,12 @@ impl Nearest {
     /// How fast a side would be left if it were let go [unit/s]; 0 if it would not.
     pub(crate) fn crossing(&self, side: Side) -> f64 {
         self.crossings[side.number()]
+    }
+
+    /// The levels that have lost directions, and how many.
+    pub(crate) fn lost(&self) -> impl Iterator<Item = (TaskId, usize)> {
+        let levels = self.lower.iter().copied().zip(self.lost.iter().copied());
+        levels.filter(|(_, lost)| *lost > 0)
     }
 
     /// Sides held by this tick's velocity.
@@ -198,6 +208,7 @@ impl Nearest {
             sides: &barrier.sides,
             bounds: &barrier.bounds,
             push_back: push_back(tick.stack, evaluation, barrier, held, multipliers),
+            damping: tick.stack[task].damping(),
         };
         let all = self.held_before.union(&self.held);
         let level = counting_on(&all);
@@ -224,6 +235,7 @@ impl Nearest {
         if solution == Solution::Optimal {
             velocity.copy_from_slice(self.program.velocity());
             self.remember(place, &barrier.sides);
+            self.lost[place] = self.program.lost();
         }
         let rows = evaluation.known_jacobian(task).chunks_exact(velocity.len());
         let met = rows.map(|row| dot(row, velocity));

@@ -114,6 +114,11 @@ impl ModeSearch {
         self.leaving[task.index()]
     }
 
+    /// The levels that had lost directions, and how many.
+    pub(crate) fn lost(&self) -> impl Iterator<Item = (TaskId, usize)> {
+        self.hierarchy.lost()
+    }
+
     /// How many modes the last search computed a velocity of.
     pub(crate) fn evaluated(&self) -> usize {
         self.evaluated

@@ -5,8 +5,6 @@
 //! the rows that bind are read off it and solved for as equations; that answer is taken where it keeps
 //! every row.
 
-#![allow(dead_code, reason = "not every user of this file needs all of it")]
-
 use clarabel::algebra::CscMatrix;
 use clarabel::solver::{DefaultSettings, DefaultSolver, IPSolver, NonnegativeConeT, SolverStatus};
 use nalgebra::{DMatrix, DVector, RowDVector};
@@ -17,8 +15,18 @@ const TOLERANCES: [f64; 3] = [1e-13, 1e-10, 1e-7];
 /// Rows of which less is left than this are zero.
 const ZERO: f64 = 1e-9;
 
+/// Rows of which less is left than this are left by rounding, perhaps.
+const NEARLY_ZERO: f64 = 1e-6;
+
 /// A row of which less than this share is left beside others depends on them.
 const DEPENDENT: f64 = 1e-7;
+
+/// A row whose multiplier and slack are both below this times the root of the gap may neither push nor
+/// have room.
+const UNCLEAR: f64 = 30.0;
+
+/// A row that is missed by less is kept.
+const TOUCHING: f64 = 1e-12;
 
 /// Largest violation of an equation's answer, and its largest difference from the interior point.
 const SAME: (f64, f64) = (1e-9, 1e-4);
@@ -36,6 +44,8 @@ pub struct Program<'a> {
 pub struct Answer {
     pub x: DVector<f64>,
     pub binding: Vec<usize>,
+    /// Whether some row neither pushes nor has room.
+    pub is_unclear: bool,
 }
 
 /// Why there is no answer.
@@ -67,10 +77,12 @@ impl Program<'_> {
             return Err(Failure::Infeasible);
         }
         let free = null_space(&rows.select_rows(self.equal));
+        let mut is_unclear = false;
         let (mut one_sided, mut within, mut missing) = (Vec::new(), Vec::new(), Vec::new());
         for i in (0..rows.nrows()).filter(|i| !self.equal.contains(i)) {
             let (row, miss) = (rows.row(i) * &free, bounds[i] - (rows.row(i) * &fixed)[0]);
             let length = row.norm();
+            is_unclear |= (ZERO..NEARLY_ZERO).contains(&length);
             if length > ZERO {
                 one_sided.push(i);
                 missing.push(miss / length);
@@ -79,7 +91,8 @@ impl Program<'_> {
                 return Err(Failure::Infeasible);
             }
         }
-        let (motion, pushes) = nearest(&within, &DVector::from_vec(missing), free.ncols())?;
+        let (motion, pushes, unclear_push) =
+            nearest(&within, &DVector::from_vec(missing), free.ncols())?;
         let step = factor
             .l()
             .tr_solve_lower_triangular(&(fixed + free * motion))
@@ -87,33 +100,34 @@ impl Program<'_> {
         Ok(Answer {
             x: self.from + step,
             binding: pushes.into_iter().map(|k| one_sided[k]).collect(),
+            is_unclear: is_unclear || unclear_push,
         })
     }
 }
 
-/// min ½ |y|² subject to A y ≥ b, rows of length one: y and the rows that push.
+/// y, the rows that push, and whether some row neither pushes nor has room.
+type Nearest = (DVector<f64>, Vec<usize>, bool);
+
+/// min ½ |y|² subject to A y ≥ b, rows of length one.
 fn nearest(
     rows: &[RowDVector<f64>],
     bounds: &DVector<f64>,
     size: usize,
-) -> Result<(DVector<f64>, Vec<usize>), Failure> {
-    if rows.is_empty() || bounds.max() <= 0.0 {
-        return Ok((DVector::zeros(size), Vec::new()));
+) -> Result<Nearest, Failure> {
+    if rows.is_empty() || bounds.max() <= TOUCHING {
+        return Ok((DVector::zeros(size), Vec::new(), false));
     }
     let rows = DMatrix::from_rows(rows);
-    let (y, binding) = interior(&rows, bounds)?;
+    let (y, binding, is_unclear) = interior(&rows, bounds)?;
     let exact = shortest(&rows, bounds, &binding);
     let worst = (bounds - &rows * &exact).max();
     let drift = (&exact - &y).norm() / (1.0 + y.norm());
     let keeps = worst <= SAME.0 && drift <= SAME.1;
-    Ok((if keeps { exact } else { y }, binding))
+    Ok((if keeps { exact } else { y }, binding, is_unclear))
 }
 
 /// The interior point of min ½ |y|² subject to A y ≥ b, and the rows whose multiplier exceeds their slack.
-fn interior(
-    rows: &DMatrix<f64>,
-    bounds: &DVector<f64>,
-) -> Result<(DVector<f64>, Vec<usize>), Failure> {
+fn interior(rows: &DMatrix<f64>, bounds: &DVector<f64>) -> Result<Nearest, Failure> {
     let (count, size) = rows.shape();
     let dense: Vec<Vec<f64>> = rows
         .row_iter()
@@ -141,7 +155,11 @@ fn interior(
         match solution.status {
             SolverStatus::Solved => {
                 let binding = (0..count).filter(|&i| solution.z[i] > solution.s[i]);
-                return Ok((DVector::from_column_slice(&solution.x), binding.collect()));
+                // At the interior point the product of the two is the gap's share of the row.
+                let unclear = UNCLEAR * tolerance.sqrt();
+                let is_unclear = (0..count).any(|i| solution.z[i].max(solution.s[i]) < unclear);
+                let y = DVector::from_column_slice(&solution.x);
+                return Ok((y, binding.collect(), is_unclear));
             }
             SolverStatus::PrimalInfeasible => return Err(Failure::Infeasible),
             _ => {}
@@ -167,6 +185,9 @@ fn shortest(rows: &DMatrix<f64>, bounds: &DVector<f64>, chosen: &[usize]) -> DVe
 /// Columns that span what moves none of the rows.
 pub fn null_space(rows: &DMatrix<f64>) -> DMatrix<f64> {
     let size = rows.ncols();
+    if size == 0 {
+        return DMatrix::zeros(0, 0);
+    }
     let directions = row_space(rows);
     let projector = DMatrix::identity(size, size) - directions.transpose() * &directions;
     let eigen = projector.symmetric_eigen();

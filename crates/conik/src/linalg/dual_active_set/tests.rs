@@ -8,6 +8,7 @@ use proptest::prelude::*;
 use super::{Constraints, DualActiveSet, Solution};
 
 #[path = "../../../tests/oracle/program.rs"]
+#[allow(dead_code, reason = "the rule's oracle needs more of it")]
 mod program;
 use program::{Failure, Program};
 
