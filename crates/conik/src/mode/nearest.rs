@@ -229,6 +229,10 @@ impl Nearest {
                     solution = self
                         .program
                         .solve(&level, &all, &self.returning, tick.pivots);
+                    if solution == Solution::Infeasible {
+                        // More of them than can be held at once, to rounding.
+                        solution = self.program.solve(&without, &remaining, &[], tick.pivots);
+                    }
                 }
             }
         }
