@@ -87,6 +87,7 @@ fn config() -> ProptestConfig {
     ProptestConfig {
         rng_seed: RngSeed::Fixed(3),
         failure_persistence: None,
+        max_global_rejects: 4096,
         ..ProptestConfig::with_cases(500)
     }
 }

@@ -15,6 +15,8 @@ use super::{Goal, Task, high_priority};
 /// l₀ and ε of the damping.
 const STRICT: f64 = 1e-3;
 const SINGULAR: f64 = 0.2;
+/// Least λ² of a level below others.
+const LOWER: f64 = 0.04;
 /// What sets are held inside their bounds with border `land` [task's unit].
 const MARGIN: f64 = 1e-7;
 /// A held side moves inward if it is faster than this [unit/s].
@@ -109,7 +111,9 @@ impl Level<'_> {
             let on_taken = taken.transpose() * &taken;
             let on_held = &on_taken - above.transpose() * &above;
             let usable = self.jacobian * (DMatrix::identity(dof, dof) - &on_taken);
-            let weight = damping(&usable, &on_held, self.scene.period * self.asked.norm());
+            let least = if self.above.nrows() > 0 { LOWER } else { 0.0 };
+            let lambda_squared = (self.scene.period * self.asked.norm()).max(least);
+            let weight = damping(&usable, &on_held, lambda_squared);
             let rows = self.jacobian * &free;
             let hessian = rows.transpose() * &rows + free.transpose() * weight * &free;
             let gap = &self.asked - self.jacobian * self.from;
@@ -132,6 +136,16 @@ impl Level<'_> {
             x: self.from + free * answer.x,
             ..answer
         })
+    }
+
+    /// Whether the level has less than ε of a direction left beside the levels above and these sides.
+    fn is_losing(&self, binding: &[usize]) -> bool {
+        let dof = self.from.len();
+        let taken = row_space(&stacked(self.above, &self.rows_of(binding)));
+        let usable = self.jacobian * (DMatrix::identity(dof, dof) - taken.transpose() * &taken);
+        let eigen = (&usable * usable.transpose()).symmetric_eigen();
+        self.scene.recursion == Recursion::SicilianoSlotine
+            && eigen.eigenvalues.min() < SINGULAR * SINGULAR
     }
 
     fn rows_of(&self, sides: &[usize]) -> DMatrix<f64> {
@@ -235,6 +249,7 @@ impl Scene<'_> {
         let mut above = DMatrix::zeros(0, self.arm.dof());
         let mut active = 0;
         let mut is_unclear = false;
+        let mut is_losing = false;
         for (i, task) in self.tasks.iter().enumerate().skip(first_equality) {
             let (sigma, jacobian) = &measured[i];
             let asked = match &task.goal {
@@ -284,8 +299,11 @@ impl Scene<'_> {
                 above: &above,
                 sides: &sides,
             };
+            // What is dear to a level above that loses a direction, the oracle does not know.
+            is_unclear |= is_losing;
             match level.descend(&mut is_unclear) {
                 Ok(answer) => {
+                    is_losing |= level.is_losing(&answer.binding);
                     qd = answer.x;
                     for i in answer.binding {
                         sides[i].is_held = true;
