@@ -98,6 +98,10 @@ impl Hierarchy {
         }
         // The new direction q is orthogonal to the rows before it, so those keep their rates.
         let (before, added) = self.frozen_rates.split_at_mut(rank);
+        if rate == 0.0 && before.iter().all(|rate| *rate == 0.0) {
+            added[0] = 0.0;
+            return true;
+        }
         let direction = |k: usize| &self.above.basis_from(k)[..self.dof];
         let known: f64 = (0..rank).map(|k| before[k] * dot(row, direction(k))).sum();
         added[0] = (rate - known) / dot(row, direction(rank));
@@ -130,9 +134,11 @@ impl Hierarchy {
         velocity: &mut [f64],
     ) {
         let frozen = self.above.rank();
-        velocity.fill(0.0);
-        for (k, rate) in self.frozen_rates[..frozen].iter().enumerate() {
-            if *rate != 0.0 {
+        let frozen_rates = &self.frozen_rates[..frozen];
+        let mut is_zero = frozen_rates.iter().all(|rate| *rate == 0.0);
+        if !is_zero {
+            velocity.fill(0.0);
+            for (k, rate) in frozen_rates.iter().enumerate() {
                 add_scaled(velocity, *rate, &self.above.basis_from(k)[..self.dof]);
             }
         }
@@ -148,21 +154,28 @@ impl Hierarchy {
                 self.above.push_block(evaluation.jacobian(stack, previous));
             }
             match self.recursion {
-                Recursion::Chiaverini => self.add_projected(stack, evaluation, place, velocity),
-                Recursion::SicilianoSlotine => self.add_fitted(stack, evaluation, place, velocity),
+                Recursion::Chiaverini => {
+                    self.find_asked(stack, evaluation, place);
+                    self.add_projected(place, is_zero, velocity);
+                }
+                Recursion::SicilianoSlotine => {
+                    if is_zero {
+                        velocity.fill(0.0);
+                    }
+                    self.add_fitted(stack, evaluation, place, velocity);
+                }
             }
+            is_zero = false;
+        }
+        if is_zero {
+            velocity.fill(0.0);
         }
         self.above.truncate(frozen);
     }
 
-    /// q̇ += N J⁺ σ̇_ref
-    fn add_projected(
-        &mut self,
-        stack: &Stack,
-        evaluation: &mut Evaluation,
-        place: usize,
-        velocity: &mut [f64],
-    ) {
+    /// J⁺ σ̇_ref, once per tick.
+    #[inline]
+    fn find_asked(&mut self, stack: &Stack, evaluation: &mut Evaluation, place: usize) {
         let asked = &mut self.asked[place * self.dof..][..self.dof];
         if !self.asked_known[place] {
             let task = self.lower[place];
@@ -181,17 +194,24 @@ impl Hierarchy {
             };
             self.asked_known[place] = true;
         }
-        copy(&mut self.projected, asked);
-        self.add_strictly_below(velocity);
+    }
+
+    /// q̇ += N J⁺ σ̇_ref
+    #[inline]
+    fn add_projected(&mut self, place: usize, is_zero: bool, velocity: &mut [f64]) {
+        let asked = &self.asked[place * self.dof..][..self.dof];
+        if is_zero {
+            copy(velocity, asked);
+            project_strictly(&self.above, velocity);
+        } else {
+            copy(&mut self.projected, asked);
+            self.add_strictly_below(velocity);
+        }
     }
 
     /// q̇ += N v for the motion v at hand.
     fn add_strictly_below(&mut self, velocity: &mut [f64]) {
-        // Near a singularity v may be much longer than N v; the second time takes out what rounding
-        // has left of the rows above.
-        for _ in 0..2 {
-            self.above.project_out(&mut self.projected);
-        }
+        project_strictly(&self.above, &mut self.projected);
         add_scaled(velocity, 1.0, &self.projected);
     }
 
@@ -224,6 +244,15 @@ impl Hierarchy {
         }
         self.lost[place] = self.damped.lost();
         self.add_strictly_below(velocity);
+    }
+}
+
+/// v ← N v. Near a singularity v may be much longer than N v; the second time takes out what rounding has
+/// left of the rows above.
+#[inline]
+fn project_strictly(above: &RowSpace, v: &mut [f64]) {
+    for _ in 0..2 {
+        above.project_out(v);
     }
 }
 

@@ -23,6 +23,7 @@
 
 use alloc::vec::Vec;
 
+use crate::barrier::NEAR;
 use crate::border::{Borders, MARGIN};
 use crate::evaluation::Evaluation;
 use crate::joints::JointVec;
@@ -43,9 +44,9 @@ const HALVINGS: usize = 2;
 /// takes more kinematics than another.
 const CAUTION: f64 = 0.125;
 
-/// Share of the margin that a correction is content with where it cannot have all of it. Two bounds may
+/// Shares of the margin that a correction is content with where it cannot have all of it. Two bounds may
 /// be closer than two margins: those of sets that were never entered and contradict each other.
-const LEAST_SHARE: f64 = 0.5;
+const MARGIN_SHARES: [f64; 2] = [0.5, 0.0625];
 
 /// What it took to land.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -82,6 +83,8 @@ pub(crate) struct Landing {
     bounds: Vec<f64>,
     equalities: Vec<usize>,
     change: Vec<f64>,
+    /// Sides that were left out are kept by every change with Σ|Δq̇ᵢ| up to this [rad/s].
+    horizon: f64,
     /// The trial of the least violation so far.
     best: Option<Best>,
     /// Share of the velocity that the next tick tries first.
@@ -123,6 +126,7 @@ impl Landing {
             bounds: Vec::with_capacity(2 * (stack.len() + stack.dof())),
             equalities: Vec::with_capacity(2 * stack.len()),
             change: alloc::vec![0.0; stack.dof()],
+            horizon: f64::INFINITY,
             best: None,
             caution: 1.0,
             period,
@@ -142,7 +146,6 @@ impl Landing {
     ) -> Landed {
         let mut landed = Landed::default();
         self.best = None;
-        self.sides.clear();
         let mut corrections = 0;
         if self.caution < 1.0 {
             is_shortened = true;
@@ -223,21 +226,24 @@ impl Landing {
         is_shortened: bool,
         qd: &mut JointVec,
     ) -> bool {
-        self.gather(approach);
-        self.rows.clear();
-        self.rows.extend_from_slice(self.sides.rows());
-        self.bounds.clear();
-        self.equalities.clear();
-        for (i, (side, _)) in self.sides.iter().enumerate() {
-            let inside = side.inside(
-                &approach.borders.next_interval(side.task),
-                approach.there.scalar(side.task),
-            );
-            self.bounds.push(landing_rate(inside, self.period));
-            if approach.held.contains(side) && !is_shortened {
-                self.equalities.push(i);
+        // Almost always the sides that are near decide alone.
+        for near in [NEAR, f64::INFINITY] {
+            self.gather(approach, near, is_shortened);
+            if !self.find_change(approach, qd) {
+                return false;
+            }
+            if self.change.iter().map(|speed| speed.abs()).sum::<f64>() <= self.horizon {
+                add_scaled(qd, 1.0, &self.change);
+                return true;
             }
         }
+        false
+    }
+
+    /// The least change under the sides gathered and the joints' ranges.
+    fn find_change(&mut self, approach: &mut Approach<'_>, qd: &JointVec) -> bool {
+        self.rows.clear();
+        self.rows.extend_from_slice(self.sides.rows());
         let sides = self.bounds.len();
         if approach.limits.has_acceleration() {
             approach
@@ -253,24 +259,21 @@ impl Landing {
         let attempts = [(held, all), (0, all), (0, sides)];
         let with_margin = attempts.into_iter().enumerate().any(|(i, attempt)| {
             let (held, rows) = attempt;
-            !attempts[..i].contains(&attempt) && self.change_by_least(approach, held, rows, qd)
+            !attempts[..i].contains(&attempt) && self.change_by_least(approach, held, rows)
         });
-        with_margin || {
-            for bound in &mut self.bounds[..sides] {
-                *bound -= (1.0 - LEAST_SHARE) * MARGIN / self.period;
-            }
-            self.change_by_least(approach, 0, sides, qd)
-        }
+        let mut share = 1.0;
+        with_margin
+            || MARGIN_SHARES.into_iter().any(|less| {
+                for bound in &mut self.bounds[..sides] {
+                    *bound -= (share - less) * MARGIN / self.period;
+                }
+                share = less;
+                self.change_by_least(approach, 0, sides)
+            })
     }
 
-    /// q̇ += the least change under the first `rows` rows, the first `held` held sides met exactly.
-    fn change_by_least(
-        &mut self,
-        approach: &mut Approach<'_>,
-        held: usize,
-        rows: usize,
-        qd: &mut JointVec,
-    ) -> bool {
+    /// The least change under the first `rows` rows, the first `held` held sides met exactly.
+    fn change_by_least(&mut self, approach: &mut Approach<'_>, held: usize, rows: usize) -> bool {
         self.change.fill(0.0);
         self.solver.set_identity();
         let constraints = Constraints {
@@ -278,26 +281,37 @@ impl Landing {
             bounds: &self.bounds[..rows],
             equalities: &self.equalities[..held],
         };
-        let solution = self
-            .solver
-            .solve(&mut self.change, constraints, approach.pivots);
-        if solution == Solution::Optimal {
-            add_scaled(qd, 1.0, &self.change);
-        }
-        solution == Solution::Optimal
+        let change = &mut self.change;
+        self.solver.solve(change, constraints, approach.pivots) == Solution::Optimal
     }
 
-    /// All sides of the high-priority sets, once a tick.
-    fn gather(&mut self, approach: &mut Approach<'_>) {
-        if self.sides.len() > 0 {
-            return;
-        }
+    /// The sides of the high-priority sets with what the trial found of them, but for those that no
+    /// change with Σ|Δq̇ᵢ| up to `near` can violate.
+    fn gather(&mut self, approach: &mut Approach<'_>, near: f64, is_shortened: bool) {
+        self.sides.clear();
+        self.bounds.clear();
+        self.equalities.clear();
+        self.horizon = f64::INFINITY;
         for (task, level) in approach.stack.iter() {
             let Some(set) = level.interval() else { break };
-            for side in Side::both(task) {
-                if side.inside(set, 0.0).is_finite() {
-                    self.sides.push(approach.stack, approach.here, side);
+            let (next, sigma) = (
+                approach.borders.next_interval(task),
+                approach.there.scalar(task),
+            );
+            let bounded = |side: &Side| side.inside(set, 0.0).is_finite();
+            for side in Side::both(task).into_iter().filter(bounded) {
+                let bound = landing_rate(side.inside(&next, sigma), self.period);
+                let is_held = approach.held.contains(side) && !is_shortened;
+                let horizon = -bound / approach.here.steepness(approach.stack, task);
+                if horizon > near && !is_held {
+                    self.horizon = self.horizon.min(horizon);
+                    continue;
                 }
+                if is_held {
+                    self.equalities.push(self.bounds.len());
+                }
+                self.sides.push(approach.stack, approach.here, side);
+                self.bounds.push(bound);
             }
         }
     }

@@ -86,8 +86,8 @@ fn assert_first_ticks(
 fn config() -> ProptestConfig {
     ProptestConfig {
         rng_seed: RngSeed::Fixed(3),
+        max_global_rejects: 20_000,
         failure_persistence: None,
-        max_global_rejects: 4096,
         ..ProptestConfig::with_cases(500)
     }
 }

@@ -1,6 +1,6 @@
 //! The reasons of a tick, gathered from what the rule and the landing found.
 
-use super::{Controller, MAX_PIVOTS, Rule};
+use super::{Controller, Rule};
 use crate::active::ActiveSet;
 use crate::linalg::dot;
 use crate::reason::Reason;
@@ -10,7 +10,7 @@ use crate::task_id::TaskId;
 
 impl Controller {
     /// Why the tick came out as it did.
-    pub(super) fn explain(&mut self, was_active: &ActiveSet) {
+    pub(super) fn explain(&mut self, was_active: &ActiveSet, is_cut_off: bool) {
         self.step.reasons.clear();
         let active = self.step.active;
         for task in active.iter() {
@@ -31,7 +31,7 @@ impl Controller {
         if self.step.no_mode {
             self.step.add_reason(Reason::NoMode);
         }
-        if self.step.pivots == MAX_PIVOTS {
+        if is_cut_off {
             self.step.add_reason(Reason::OutOfPivots);
         }
     }

@@ -15,6 +15,7 @@ use alloc::vec::Vec;
 
 use crate::damping::Damping;
 
+use super::row_space::push_row;
 use super::symmetric::{eigenvectors, factor, solve};
 use super::{COMMON, add_scaled, dot};
 use crate::real::sqrt;
@@ -109,9 +110,15 @@ impl Damped {
         is_regular.then_some(&self.rhs[..g.len()])
     }
 
-    /// x ← (A Aᵀ + l₀² I)⁻¹ x for the rows that were last found to need no damping.
-    pub(crate) fn solve_regular(&self, x: &mut [f64]) {
-        solve(&self.gram[..x.len() * x.len()], x.len(), x);
+    /// vᵀ (A Aᵀ + l₀² I)⁻¹ v for the rows of the last regular solution.
+    pub(crate) fn regular_square(&mut self, v: &[f64]) -> f64 {
+        let w = &mut self.rhs[..v.len()];
+        w.copy_from_slice(v);
+        match v.len() {
+            3 => solve(&self.gram, 3, w),
+            count => solve(&self.gram, count, w),
+        }
+        dot(v, w)
     }
 
     /// x += the solution for rows that may all be used: Σⱼ yⱼ sⱼ (uⱼ g) / (sⱼ² + l₀² + (1 − wⱼ) λ²).
@@ -155,6 +162,19 @@ impl Damped {
 
     /// Finds the yⱼ and wⱼ of the usable rows.
     pub(crate) fn analyse(&mut self, damping: Damping, usable: &[f64]) {
+        let is_fixed = matches!(damping, Damping::Fixed(_));
+        if !is_fixed && self.is_regular(usable) {
+            // All weights are 1, and then any orthonormal rows of the same span will do.
+            self.lost = 0;
+            self.weights.clear();
+            for row in usable.chunks_exact(self.dof) {
+                let found = self.weights.len();
+                if push_row(self.dof, &mut self.directions, found, row) {
+                    self.weights.push(1.0);
+                }
+            }
+            return;
+        }
         self.fill_gram(usable, 0.0);
         let (dof, n) = (self.dof, self.count);
         eigenvectors(&mut self.gram, n, &mut self.eigenvectors);

@@ -41,8 +41,8 @@ pub(crate) struct LevelProgram {
     velocity: Vec<f64>,
     /// The sides, by index, that bind in it, with their multipliers.
     binding: Vec<(usize, f64)>,
-    /// Whether the held fit was the solution, and not the solver's.
-    is_closed_form: bool,
+    /// Whether it came from `held_fit`, not from `solver`.
+    is_held_fit: bool,
     /// J, or J N and the motions that are dear to the levels above.
     rows: Vec<f64>,
     /// What of J N is left beside the held sides.
@@ -93,7 +93,7 @@ impl LevelProgram {
             minimum_norm: MinimumNorm::new(dof, max_rows),
             velocity: alloc::vec![0.0; dof],
             binding: Vec::with_capacity(dof),
-            is_closed_form: false,
+            is_held_fit: false,
             rows: Vec::with_capacity((max_rows + stack.len() * dof) * dof),
             usable: Vec::with_capacity(max_rows * dof),
             gap: Vec::with_capacity(max_rows + stack.len() * dof),
@@ -114,7 +114,7 @@ impl LevelProgram {
         pivots: &mut usize,
     ) -> Solution {
         self.binding.clear();
-        self.is_closed_form = false;
+        self.is_held_fit = false;
         self.rows.clear();
         self.rows.extend_from_slice(level.jacobian);
         self.gap.clear();
@@ -158,10 +158,11 @@ impl LevelProgram {
     /// How far beyond its bound each binding side would go [unit/s] if it alone were let go, in the order
     /// of [`binding`](Self::binding).
     pub(crate) fn crossings(&mut self) -> impl Iterator<Item = (usize, f64)> {
-        let rank = self.binding.len();
+        let (rank, count) = (self.binding.len(), self.gap.len());
         (0..rank).map(move |k| {
-            let rate = if self.is_closed_form {
-                self.held_fit.rate_if_released(k, rank, &self.damped)
+            let rate = if self.is_held_fit {
+                self.held_fit
+                    .rate_if_released(k, rank, count, &mut self.damped)
             } else {
                 self.solver.rate_if_released(k)
             };
@@ -182,24 +183,24 @@ impl LevelProgram {
         }
         self.take_held(level, held);
         let is_fixed = matches!(level.damping, Damping::Fixed(_));
-        let may_fit = !must_hold && !is_fixed && level.above.dear().is_empty();
-        if may_fit && self.fit_held(level) {
+        let has_closed_form = !must_hold && !is_fixed && level.above.dear().is_empty();
+        if has_closed_form && self.fit_held(level) {
             return true;
         }
         copy(&mut self.velocity, level.from);
         let asked = sqrt(dot(level.asked, level.asked));
-        self.rows.extend_from_slice(level.above.dear());
-        self.gap.resize(self.rows.len() / self.dof, 0.0);
         let damping = level
             .damping
             .or_else(Damping::of_cone(Recursion::SicilianoSlotine));
+        self.rows.extend_from_slice(level.above.dear());
+        self.gap.resize(self.rows.len() / self.dof, 0.0);
         let least = if level.above.rows().rank() == 0 {
             0.0
         } else {
             LOWER
         };
-        let variable = (self.period * (asked + level.push_back)).max(least);
-        let lambda_squared = damping.lambda_squared(variable);
+        let to_rest = self.period * (asked + level.push_back);
+        let lambda_squared = damping.lambda_squared(to_rest.max(least));
         self.damped.analyse(damping, &self.usable);
         let dimension = level.above.rows().complement(&mut self.free);
         let free = &self.free[..dimension * self.dof];
@@ -254,7 +255,7 @@ impl LevelProgram {
             .held_fit
             .solve(problem, &mut self.damped, &mut self.velocity)
             && keeps_every_side(level, &self.velocity);
-        self.is_closed_form = is_solution;
+        self.is_held_fit = is_solution;
         if is_solution {
             let multipliers = self.held_fit.multipliers().iter().copied();
             self.binding

@@ -89,8 +89,8 @@ impl Nearest {
             held: Held::default(),
             low_active: ActiveSet::EMPTY,
             multipliers: alloc::vec![0.0; 2 * stack.len() * lower.len()],
-            above: Claims::new(stack, &lower, max_rows, 1.0 / settings.rate_hz),
             lost: alloc::vec![0; lower.len()],
+            above: Claims::new(stack, &lower, max_rows, 1.0 / settings.rate_hz),
             lower,
             asked: Vec::with_capacity(max_rows),
             unmet: Vec::with_capacity(max_rows),
@@ -196,6 +196,27 @@ impl Nearest {
     /// One level further down: fits the velocity to what the level asks. Where the program has no
     /// answer, the velocity of the levels above stands.
     fn descend(&mut self, tick: &mut NearestTick<'_>, place: usize, velocity: &mut [f64]) {
+        let mut solution = self.solve(tick, place, velocity);
+        if solution == Solution::Optimal && !tick.barrier.covers(self.program.velocity()) {
+            tick.barrier.gather_far(tick.stack, tick.evaluation);
+            solution = self.solve(tick, place, velocity);
+        }
+        if solution == Solution::Optimal {
+            velocity.copy_from_slice(self.program.velocity());
+            self.remember(place, &tick.barrier.sides);
+            self.lost[place] = self.program.lost();
+        }
+        let jacobian = tick.evaluation.known_jacobian(self.lower[place]);
+        let met = jacobian
+            .chunks_exact(velocity.len())
+            .map(|row| dot(row, velocity));
+        self.unmet.clear();
+        self.unmet
+            .extend(self.asked.iter().zip(met).map(|(asked, met)| asked - met));
+    }
+
+    /// The program of a level, after `from`, the velocity of the levels above.
+    fn solve(&mut self, tick: &mut NearestTick<'_>, place: usize, from: &[f64]) -> Solution {
         let task = self.lower[place];
         tick.evaluation.jacobian(tick.stack, task);
         let (evaluation, barrier) = (&*tick.evaluation, &*tick.barrier);
@@ -203,7 +224,7 @@ impl Nearest {
         let counting_on = |held: &Held| Level {
             jacobian: evaluation.known_jacobian(task),
             asked: &self.asked,
-            from: velocity,
+            from,
             above: &self.above,
             sides: &barrier.sides,
             bounds: &barrier.bounds,
@@ -212,40 +233,28 @@ impl Nearest {
         };
         let all = self.held_before.union(&self.held);
         let level = counting_on(&all);
-        let mut solution = self.program.solve(&level, &all, &[], tick.pivots);
-        if solution == Solution::Optimal && self.recursion == Recursion::SicilianoSlotine {
-            // The damping counts on held sides, and by that may be what makes one seem to move inward.
-            // It is released only if it also does when the damping does not count on it.
-            let remaining = still_held(&level, &self.program, &all);
-            if remaining != all {
-                let without = counting_on(&remaining);
-                solution = self.program.solve(&without, &remaining, &[], tick.pivots);
-                let binding = self.program.binding().map(|(i, _)| i);
-                self.returning.clear();
-                self.returning
-                    .extend(binding.filter(|&i| all.contains(level.sides.get(i))));
-                let returns = |&i: &usize| !remaining.contains(level.sides.get(i));
-                if solution == Solution::Optimal && self.returning.iter().any(returns) {
-                    solution = self
-                        .program
-                        .solve(&level, &all, &self.returning, tick.pivots);
-                    if solution == Solution::Infeasible {
-                        // More of them than can be held at once, to rounding.
-                        solution = self.program.solve(&without, &remaining, &[], tick.pivots);
-                    }
-                }
-            }
+        let solution = self.program.solve(&level, &all, &[], tick.pivots);
+        if solution != Solution::Optimal || self.recursion == Recursion::Chiaverini {
+            return solution;
         }
-        if solution == Solution::Optimal {
-            velocity.copy_from_slice(self.program.velocity());
-            self.remember(place, &barrier.sides);
-            self.lost[place] = self.program.lost();
+        // The damping counts on held sides, and by that may be what makes one seem to move inward.
+        // It is released only if it also does when the damping does not count on it.
+        let remaining = still_held(&level, &self.program, &all);
+        if remaining == all {
+            return solution;
         }
-        let rows = evaluation.known_jacobian(task).chunks_exact(velocity.len());
-        let met = rows.map(|row| dot(row, velocity));
-        self.unmet.clear();
-        self.unmet
-            .extend(self.asked.iter().zip(met).map(|(asked, met)| asked - met));
+        let without = counting_on(&remaining);
+        let solution = self.program.solve(&without, &remaining, &[], tick.pivots);
+        let binding = self.program.binding().map(|(i, _)| i);
+        self.returning.clear();
+        self.returning
+            .extend(binding.filter(|&i| all.contains(level.sides.get(i))));
+        let returns = |&i: &usize| !remaining.contains(level.sides.get(i));
+        if solution != Solution::Optimal || !self.returning.iter().any(returns) {
+            return solution;
+        }
+        self.program
+            .solve(&level, &all, &self.returning, tick.pivots)
     }
 
     /// A level that has had its turn claims its motions from those below.

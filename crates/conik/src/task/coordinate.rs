@@ -67,6 +67,10 @@ impl Task for Coordinate {
         kinematics.add_point_curvature(self.frame, along, hessian);
     }
 
+    fn steepness(&self, reach: f64) -> f64 {
+        reach
+    }
+
     fn unit(&self) -> &'static str {
         "m"
     }

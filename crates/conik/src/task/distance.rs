@@ -104,6 +104,10 @@ impl Task for Distance {
         1.0 / (sigma + DENOMINATOR_EPSILON)
     }
 
+    fn steepness(&self, reach: f64) -> f64 {
+        reach
+    }
+
     fn unit(&self) -> &'static str {
         "m"
     }

@@ -111,6 +111,10 @@ impl Task for FieldOfView {
         1.0 / (sigma + DENOMINATOR_EPSILON)
     }
 
+    fn steepness(&self, _reach: f64) -> f64 {
+        1.0
+    }
+
     fn unit(&self) -> &'static str {
         "-"
     }

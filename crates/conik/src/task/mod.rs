@@ -70,6 +70,14 @@ pub trait Task: Any + Debug + Send {
     /// the default does, is taken to be linear.
     fn add_curvature(&self, _kinematics: &Kinematics, _weights: &[f64], _hessian: &mut [f64]) {}
 
+    /// A bound on how fast the value can change [task's unit/rad]: |J q̇| ≤ steepness · Σ|q̇ᵢ| in every
+    /// configuration. `reach` [m] is the most that a point of the robot can be away from a joint that
+    /// moves it. A set that is so far inside that it cannot be left within a tick costs no Jacobian;
+    /// infinity, of which nothing follows, if no bound is known.
+    fn steepness(&self, _reach: f64) -> f64 {
+        f64::INFINITY
+    }
+
     /// Unit of the value, for people: `m`, `rad`, `-`.
     fn unit(&self) -> &'static str;
 

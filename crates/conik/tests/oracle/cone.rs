@@ -138,14 +138,14 @@ impl Level<'_> {
         })
     }
 
-    /// Whether the level has less than ε of a direction left beside the levels above and these sides.
-    fn is_losing(&self, binding: &[usize]) -> bool {
+    /// Whether the level has lost a direction and asks for something in it: the levels below then let it
+    /// rest, by the second derivatives of its task, which are not in this definition.
+    fn rests(&self, answer: &Answer) -> bool {
         let dof = self.from.len();
-        let taken = row_space(&stacked(self.above, &self.rows_of(binding)));
+        let taken = row_space(&stacked(self.above, &self.rows_of(&answer.binding)));
         let usable = self.jacobian * (DMatrix::identity(dof, dof) - taken.transpose() * &taken);
-        let eigen = (&usable * usable.transpose()).symmetric_eigen();
-        self.scene.recursion == Recursion::SicilianoSlotine
-            && eigen.eigenvalues.min() < SINGULAR * SINGULAR
+        let least = (&usable * usable.transpose()).symmetric_eigenvalues().min();
+        least < SINGULAR * SINGULAR * (1.0 + 1e-6)
     }
 
     fn rows_of(&self, sides: &[usize]) -> DMatrix<f64> {
@@ -187,9 +187,9 @@ impl Level<'_> {
             .binding
             .iter()
             .copied()
-            .filter(|i| released.contains(i))
+            .filter(|i| counted_on.contains(i))
             .collect();
-        if returning.is_empty() {
+        if !returning.iter().any(|i| released.contains(i)) {
             return Ok(second);
         }
         let third = self.solve(&counted_on, &returning)?;
@@ -249,7 +249,7 @@ impl Scene<'_> {
         let mut above = DMatrix::zeros(0, self.arm.dof());
         let mut active = 0;
         let mut is_unclear = false;
-        let mut is_losing = false;
+        let mut one_rests = false;
         for (i, task) in self.tasks.iter().enumerate().skip(first_equality) {
             let (sigma, jacobian) = &measured[i];
             let asked = match &task.goal {
@@ -299,11 +299,11 @@ impl Scene<'_> {
                 above: &above,
                 sides: &sides,
             };
-            // What is dear to a level above that loses a direction, the oracle does not know.
-            is_unclear |= is_losing;
+            is_unclear |= one_rests;
             match level.descend(&mut is_unclear) {
                 Ok(answer) => {
-                    is_losing |= level.is_losing(&answer.binding);
+                    one_rests |=
+                        self.recursion == Recursion::SicilianoSlotine && level.rests(&answer);
                     qd = answer.x;
                     for i in answer.binding {
                         sides[i].is_held = true;
