@@ -2,8 +2,9 @@
 
 use conik_cli::report::units::{limit, optional, quantity};
 use conik_sim::experiment::Experiment;
+use conik_sim::joint_limits::LIMIT;
 use conik_sim::scenario::{Border, Choice, Control, GoalConfig, Scenario, TaskConfig};
-use conik_sim::summary::{Landing, Outcome, Property, Summary};
+use conik_sim::summary::{Landing, Outcome, Property, Summary, TaskSummary};
 
 use crate::layout::{counted, table, wrapped};
 
@@ -96,12 +97,19 @@ fn waypoints(summary: &Summary) -> String {
         .collect()
 }
 
-/// One line per task, in the order of priority.
+/// One line per task, in the order of priority; of the joints' position limits only those that bound.
 fn tasks(summary: &Summary) -> String {
     let mut rows =
         vec![["task", "goal", "result", "first inside", "active for"].map(str::to_owned)];
-    for task in &summary.settings.scenario.tasks {
-        rows.push(task_row(summary, task));
+    let is_idle = |task: &TaskConfig| {
+        let result = summary.tasks.get(&task.name);
+        let did = |result: &TaskSummary| (result.worst_violation, result.active_s);
+        task.name.starts_with(LIMIT) && result.map(did) == Some((Some(0.0), Some(0.0)))
+    };
+    for task in &summary.settings.scenario.all_tasks() {
+        if !is_idle(task) {
+            rows.push(task_row(summary, task));
+        }
     }
     table(&rows)
 }

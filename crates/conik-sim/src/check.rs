@@ -132,7 +132,7 @@ fn depends(stack: &Stack, dependent: &[TaskId], doubts: &mut Vec<String>) {
 /// The point of an obstacle and the distance to be kept from it.
 fn obstacle(task: &TaskConfig) -> Option<(Vec3, f64)> {
     match (&task.kind, &task.goal) {
-        (TaskKind::Distance { point_m }, GoalConfig::Set { min: Some(min), .. }) => {
+        (TaskKind::Distance { point_m, .. }, GoalConfig::Set { min: Some(min), .. }) => {
             Some(((*point_m).into(), *min))
         }
         _ => None,

@@ -10,7 +10,9 @@
 pub mod arm;
 pub mod check;
 pub mod experiment;
+pub mod joint_limits;
 pub mod log;
+pub mod mover;
 pub mod promise;
 pub mod record;
 pub mod run;

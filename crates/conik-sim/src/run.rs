@@ -86,6 +86,7 @@ fn drive(
         }
         let feedback = arm.next_cycle()?;
         let t_s = tick as f64 / rate_hz;
+        experiment.move_world(t_s);
         let mut record = decide(experiment, &columns, &q, &feedback)?;
         let step = experiment.controller.last_step();
         arm.send(&Reference {
@@ -173,6 +174,7 @@ fn decide(
         qd: step.qd,
         qdd: step.qdd,
         q_measured: feedback.q,
+        reasons: step.reasons().to_vec(),
         speed_limited: step.speed_limit.is_some(),
         no_mode: step.no_mode,
         landed: step.landed,
@@ -215,6 +217,22 @@ impl Columns {
             .iter()
             .map(|&id| format!("{}_error", stack[id].name()));
         values.chain(errors).collect()
+    }
+
+    /// The value of a task of one component, as it stands in a record.
+    pub fn value(&self, record: &Record, task: TaskId) -> Option<f64> {
+        let index = self.scalars.iter().position(|&other| other == task)?;
+        record.task_values.get(index).copied()
+    }
+
+    /// The norm of the error of an equality task, as it stands in a record.
+    pub fn error(&self, record: &Record, task: TaskId) -> Option<f64> {
+        record.task_values.get(self.error_index(task)?).copied()
+    }
+
+    fn error_index(&self, task: TaskId) -> Option<usize> {
+        let index = self.equalities.iter().position(|&other| other == task)?;
+        Some(self.scalars.len() + index)
     }
 
     fn values(&self, step: &conik::Step) -> Vec<f64> {

@@ -71,7 +71,7 @@ impl Scene {
         };
         for task in run.tasks() {
             match (&task.kind, &task.goal) {
-                (TaskKind::Distance { point_m }, GoalConfig::Set { min, max, .. }) => {
+                (TaskKind::Distance { point_m, .. }, GoalConfig::Set { min, max, .. }) => {
                     for (limit, is_obstacle) in [(min, true), (max, false)] {
                         let Some(radius) = *limit else { continue };
                         if radius > 0.0 && radius.is_finite() {

@@ -64,7 +64,7 @@ fn kind(run: &Run, task: &TaskConfig) -> String {
             let label = quantity::value_label(run, task);
             label.split(" [").next().unwrap_or_default().to_owned()
         }
-        TaskKind::Distance { point_m } => format!("distance to {}", point(&point_m)),
+        TaskKind::Distance { point_m, .. } => format!("distance to {}", point(&point_m)),
         TaskKind::FieldOfView { .. } => "field of view".to_owned(),
     }
 }

@@ -6,7 +6,8 @@ use std::fs;
 use std::path::PathBuf;
 
 use conik_sim::scenario::{
-    Border, Control, GoalConfig, ModeRule, Recursion, RobotConfig, Scenario, TaskConfig, TaskKind,
+    Border, Control, GoalConfig, LimitsConfig, ModeRule, Recursion, RobotConfig, Scenario,
+    TaskConfig, TaskKind,
 };
 use conik_sim::summary::{
     FORMAT, ModeChange, Outcome, Properties, Property, Settings, StepTime, StepWork, Summary,
@@ -159,10 +160,12 @@ impl Invention {
                 name,
                 kind: TaskKind::Distance {
                     point_m: [0.4, -0.3 + 0.1 * f64::from(n), -0.3],
+                    motion: None,
                 },
                 goal: GoalConfig::Set {
                     min: Some(0.17),
                     max: None,
+                    recovery_per_s: None,
                     gain_per_s: None,
                 },
             })
@@ -198,6 +201,7 @@ impl Invention {
                 goal: GoalConfig::Set {
                     min: None,
                     max: Some(0.2622),
+                    recovery_per_s: None,
                     gain_per_s: Some(1.0),
                 },
             };
@@ -242,6 +246,7 @@ impl Invention {
                 scenario: Scenario {
                     title: Some(self.title.clone()),
                     robot: RobotConfig {
+                        limits: LimitsConfig::default(),
                         model: "ur5-paper".into(),
                         q0_rad: vec![0.0; self.joints],
                     },
