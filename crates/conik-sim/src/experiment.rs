@@ -111,9 +111,14 @@ impl Experiment {
         waypoints.map_or(0, |(_, waypoints)| waypoints.points().len())
     }
 
+    /// The control period [s].
+    pub fn period_s(&self) -> f64 {
+        1.0 / self.controller.settings().rate_hz
+    }
+
     /// Tells the controller where what moves is at `t_s` [s], and how it moves on; before every tick.
     pub fn move_world(&mut self, t_s: f64) {
-        let period_s = 1.0 / self.controller.settings().rate_hz;
+        let period_s = self.period_s();
         for mover in &self.movers {
             mover.tell(&mut self.controller.setpoints(), t_s, period_s);
         }

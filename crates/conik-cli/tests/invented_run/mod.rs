@@ -5,6 +5,7 @@ use std::fmt::Write;
 use std::fs;
 use std::path::PathBuf;
 
+use conik_sim::monitors::{JointMonitor, Monitors, Sighting, Verdict};
 use conik_sim::scenario::{
     Border, Control, GoalConfig, LimitsConfig, ModeRule, Recursion, RobotConfig, Scenario,
     TaskConfig, TaskKind,
@@ -210,6 +211,48 @@ impl Invention {
         tasks
     }
 
+    /// The view was frozen inside for a while, and the first joint's speed limit bound.
+    fn monitors(&self) -> Monitors {
+        let sighting = |verdict| Sighting {
+            verdict,
+            ticks: 0,
+            for_s: 0.0,
+            worst: 0.0,
+            at_s: None,
+            task: None,
+        };
+        let never = sighting(Verdict::Never);
+        let not_watched = sighting(Verdict::NotWatched);
+        let inside = Sighting {
+            verdict: Verdict::Seen,
+            ticks: 125,
+            for_s: 1.0,
+            worst: 0.0123,
+            at_s: Some(1.5),
+            task: Some("view".into()),
+        };
+        let joint = |n| JointMonitor {
+            joint: format!("joint_{n}"),
+            position_limited_s: 0.0,
+            speed_limited_s: if n == 1 { 0.72 } else { 0.0 },
+            acceleration_limited_s: 0.0,
+            acceleration_exceeded: never.clone(),
+            fastest: 3.1,
+            hardest: 40.0,
+        };
+        Monitors {
+            rank_lost: never.clone(),
+            frozen_moves: never.clone(),
+            frozen_inside: inside,
+            stuck: never.clone(),
+            went_outside: not_watched.clone(),
+            unannounced: not_watched.clone(),
+            stood_still: not_watched,
+            mode_changes: never.clone(),
+            joints: (1..=self.joints).map(joint).collect(),
+        }
+    }
+
     fn summary(&self) -> Summary {
         let tasks = self.tasks();
         let mut results = BTreeMap::new();
@@ -295,6 +338,7 @@ impl Invention {
             speed_limited_ticks: 0,
             no_mode_ticks: 0,
             landing: None,
+            monitors: Some(self.monitors()),
             step_work_max: StepWork::default(),
         }
     }
