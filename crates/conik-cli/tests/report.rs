@@ -143,6 +143,7 @@ fn a_log_cut_short_is_still_reported() {
 fn monitors_are_told_with_their_verdicts() {
     let folder = Invention::default().write("monitors");
     let page = fs::read_to_string(report::write(&folder).unwrap()).unwrap();
+    let page = page.replace('\u{a0}', " ");
     let (_, section) = page.split_once("What else was watched").unwrap();
     let row = |words: &str| section.lines().find(|line| line.contains(words)).unwrap();
     let frozen = row("frozen though it was strictly inside");

@@ -78,6 +78,19 @@ fn tool_gives_way_to_the_ball_that_crosses_its_way() {
     assert!(crossing["tasks"]["ball"]["active_s"].as_f64() > Some(1.0));
     let closest = crossing["tasks"]["ball"]["min"].as_f64().unwrap();
     assert!((0.12..0.12 + 1e-4).contains(&closest), "it came: {closest}");
+    // It is drawn where it was at the start and where it came to rest, 5.5 s later.
+    let folder = empty_folder("gallery drawn");
+    let path = gallery().join("crossing.toml");
+    done(
+        &folder,
+        &format!("run {} --robot ideal --quiet --out .", path.display()),
+    );
+    let page = fs::read_to_string(folder.join("report.html")).unwrap();
+    let moving = "\"moving\":[[[0.75000,0.30000,-0.25000],[0.12740,-0.60695,-0.25000],0.12000]]";
+    assert!(page.contains(moving));
+    for label in ["ball, start", "ball, end"] {
+        assert!(page.contains(label), "{label} is not drawn");
+    }
     for monitor in ["went_outside", "unannounced", "stood_still"] {
         assert_eq!(
             crossing["monitors"][monitor]["verdict"], "never",
