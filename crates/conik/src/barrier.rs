@@ -23,6 +23,9 @@ use crate::stack::{Goal, Stack};
 /// bends, and for the other sets.
 const BRAKING_SHARE: f64 = 0.5;
 
+/// Sides that are kept by every velocity with Σ|q̇ᵢ| up to this [rad/s] are left out at first.
+pub(crate) const NEAR: f64 = 4.0;
+
 #[derive(Debug)]
 pub(crate) struct Barrier {
     pub(crate) sides: Sides,
@@ -35,6 +38,10 @@ pub(crate) struct Barrier {
     braking: Option<Vec<f64>>,
     border: Border,
     period: f64,
+    /// Sides so far inside that they are kept by every velocity with Σ|q̇ᵢ| below `horizon` [rad/s], and
+    /// their b.
+    far: Vec<(Side, f64)>,
+    horizon: f64,
 }
 
 impl Barrier {
@@ -46,6 +53,8 @@ impl Barrier {
             braking,
             border: settings.border,
             period: 1.0 / settings.rate_hz,
+            far: Vec::with_capacity(2 * stack.len()),
+            horizon: f64::INFINITY,
         }
     }
 
@@ -54,6 +63,8 @@ impl Barrier {
         self.sides.clear();
         self.bounds.clear();
         self.wishes.clear();
+        self.far.clear();
+        self.horizon = f64::INFINITY;
     }
 
     /// Gathers, into an empty barrier, the sides of the high-priority sets.
@@ -72,15 +83,36 @@ impl Barrier {
                     continue;
                 };
                 let approaching = side.inward(borders.bound_rate(side) - evaluation.drift(task));
+                let outside = -side.inside(interval, sigma);
+                let horizon = -(bound + approaching) / evaluation.steepness(stack, task);
+                if horizon > NEAR && outside <= 0.0 && self.braking.is_none() {
+                    self.far.push((side, bound + approaching));
+                    self.horizon = self.horizon.min(horizon);
+                    continue;
+                }
                 self.sides.push(stack, evaluation, side);
                 self.bounds.push(self.braked(bound, inside) + approaching);
-                let outside = -side.inside(interval, sigma);
                 if let (Some(speed), true) = (*recovery, outside > 0.0) {
                     let rate = speed.min(landing_rate(-outside, self.period)) + approaching;
                     self.wishes.push((self.bounds.len() - 1, rate));
                 }
             }
         }
+    }
+
+    /// Whether a velocity keeps, for certain, the sides left out as too far away. If it does not, they
+    /// are to be gathered after all, and what was found without them is to be found again.
+    pub(crate) fn covers(&self, velocity: &[f64]) -> bool {
+        velocity.iter().map(|speed| speed.abs()).sum::<f64>() <= self.horizon
+    }
+
+    /// Gathers the sides that were left out.
+    pub(crate) fn gather_far(&mut self, stack: &Stack, evaluation: &mut Evaluation) {
+        for (side, bound) in self.far.drain(..) {
+            self.sides.push(stack, evaluation, side);
+            self.bounds.push(bound);
+        }
+        self.horizon = f64::INFINITY;
     }
 
     /// b for a side whose bound is `inside` away; `None` if it binds nothing.

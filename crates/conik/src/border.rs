@@ -130,13 +130,6 @@ impl Borders {
         if side.is_upper { max } else { min }
     }
 
-    /// Whether a value is on the border or outside. A set that is held a margin inside counts as on
-    /// its border there.
-    #[inline]
-    pub(crate) fn is_at_border(&self, task: TaskId, sigma: f64) -> bool {
-        self.with_band(task).is_at_border(sigma)
-    }
-
     /// The sides at whose border, or outside of which, a value is.
     pub(crate) fn sides_at(&self, task: TaskId, sigma: f64) -> impl Iterator<Item = Side> {
         let set = self.with_band(task);
@@ -146,13 +139,22 @@ impl Borders {
             .map(move |(is_upper, _)| Side { task, is_upper })
     }
 
-    /// `in_T_C` for the bounds in force, which may themselves move.
+    /// The tangent cone of the bounds in force, which may themselves move: the rates [unit/s] at which a
+    /// task at `sigma` stays or comes closer. All rates, unless the value is on the border or outside. A
+    /// set that is held a margin inside counts as on its border there.
     #[inline]
-    pub(crate) fn tangent_cone_contains(&self, task: TaskId, sigma_dot: f64, sigma: f64) -> bool {
+    pub(crate) fn tangent_cone(&self, task: TaskId, sigma: f64) -> Interval {
         let (set, rates) = (self.with_band(task), self.holds[task.index()].rates);
-        let leaves_below = sigma <= set.min && sigma_dot < rates.min;
-        let leaves_above = sigma >= set.max && sigma_dot > rates.max;
-        !(leaves_below || leaves_above)
+        let is_at = |is_at: bool, rate: f64, otherwise: f64| if is_at { rate } else { otherwise };
+        Interval {
+            min: is_at(sigma <= set.min, rates.min, f64::NEG_INFINITY),
+            max: is_at(sigma >= set.max, rates.max, f64::INFINITY),
+        }
+    }
+
+    /// Whether a value is on the border or outside.
+    pub(crate) fn is_at_border(&self, task: TaskId, sigma: f64) -> bool {
+        self.sides_at(task, sigma).next().is_some()
     }
 
     /// Sides of the active sets at whose border they now are.
@@ -187,14 +189,18 @@ impl Borders {
 /// A bound that jumped moved by more than this; what is less is rounding [task's unit].
 const JUMP: f64 = 1e-3 * MARGIN;
 
+/// The leeway follows what is gained only by more than this [task's unit]. Following every gain, two sets
+/// that pull apart would soon leave no room between them, and the arm would stand still.
+const GAIN: f64 = 2.0 * MARGIN;
+
 /// The leeway of a side that is `outside` by so much now. The slack of a margin is given once and never
 /// grows; only a bound that jumped away from the task gives it a new start.
 fn least_leeway(best: f64, outside: f64) -> f64 {
     let now = (outside + MARGIN).max(0.0);
-    if outside > best + JUMP {
+    if outside > best + JUMP || now == 0.0 || best - now > GAIN {
         now
     } else {
-        best.min(now)
+        best
     }
 }
 

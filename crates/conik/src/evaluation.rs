@@ -2,6 +2,7 @@
 
 use alloc::vec::Vec;
 
+use crate::active::ActiveSet;
 use crate::kinematics::Kinematics;
 use crate::robot::Robot;
 use crate::stack::{Goal, Stack};
@@ -17,11 +18,12 @@ pub(crate) struct Evaluation {
     errors: TaskVectors,
     /// ∂σ/∂t of the tasks whose own parameters move; zeros for the others.
     drifts: TaskVectors,
-    /// Tasks whose drift is not zero.
-    is_drifting: Vec<bool>,
+    /// Tasks whose drift is not zero, and whether there are any.
+    drifting: ActiveSet,
+    is_any_drifting: bool,
     /// The Jacobian of each task, row after row.
     jacobians: Vec<Vec<f64>>,
-    jacobian_known: Vec<bool>,
+    jacobian_known: ActiveSet,
 }
 
 impl Evaluation {
@@ -32,12 +34,13 @@ impl Evaluation {
             values: TaskVectors::zeros(stack),
             errors: TaskVectors::zeros(stack),
             drifts: TaskVectors::zeros(stack),
-            is_drifting: alloc::vec![false; stack.len()],
+            drifting: ActiveSet::EMPTY,
+            is_any_drifting: false,
             jacobians: stack
                 .iter()
                 .map(|(_, level)| alloc::vec![0.0; level.task().dimension() * robot.dof()])
                 .collect(),
-            jacobian_known: alloc::vec![false; stack.len()],
+            jacobian_known: ActiveSet::EMPTY,
         }
     }
 
@@ -45,6 +48,16 @@ impl Evaluation {
     pub(crate) fn kinematics_at(&mut self, q: &[f64]) -> &Kinematics {
         self.kinematics.update(q);
         &self.kinematics
+    }
+
+    /// The robot where it is.
+    pub(crate) fn kinematics(&self) -> &Kinematics {
+        &self.kinematics
+    }
+
+    /// How fast the value of a task can change, see [`Task::steepness`](crate::Task::steepness).
+    pub(crate) fn steepness(&self, stack: &Stack, task: TaskId) -> f64 {
+        stack[task].task().steepness(self.kinematics.reach())
     }
 
     /// Whether the robot is at `q`.
@@ -56,7 +69,7 @@ impl Evaluation {
     /// asked for.
     pub(crate) fn update(&mut self, stack: &Stack, q: &[f64]) {
         self.kinematics.update(q);
-        self.jacobian_known.fill(false);
+        self.jacobian_known = ActiveSet::EMPTY;
         for (id, level) in stack.iter() {
             let value = self.values.of_mut(id);
             level.task().value(&self.kinematics, value);
@@ -65,6 +78,7 @@ impl Evaluation {
             }
             self.update_drift(stack, id);
         }
+        self.is_any_drifting = !self.drifting.is_empty();
     }
 
     /// The mean of ∂σ/∂t over the period: with it, the value at its end is met without lag.
@@ -76,8 +90,9 @@ impl Evaluation {
             for (drift, now) in drift.iter_mut().zip(self.values.of(id)) {
                 *drift = (*drift - now) / self.period;
             }
-            self.is_drifting[id.index()] = true;
-        } else if core::mem::take(&mut self.is_drifting[id.index()]) {
+            self.drifting.insert(id);
+        } else if self.drifting.contains(id) {
+            self.drifting.remove(id);
             self.drifts.of_mut(id).fill(0.0);
         }
     }
@@ -85,7 +100,7 @@ impl Evaluation {
     /// Values of the sets at `q` at the end of the period.
     pub(crate) fn look_ahead(&mut self, stack: &Stack, q: &[f64]) {
         self.kinematics.update(q);
-        self.jacobian_known.fill(false);
+        self.jacobian_known = ActiveSet::EMPTY;
         for (id, level) in stack.iter().filter(|(_, level)| level.interval().is_some()) {
             let (task, value) = (level.task(), self.values.of_mut(id));
             if task.is_moving() {
@@ -98,9 +113,10 @@ impl Evaluation {
 
     /// The first task whose value, or drift, is not a finite number.
     pub(crate) fn not_finite(&self) -> Option<TaskId> {
-        self.values
-            .not_finite()
-            .or_else(|| self.drifts.not_finite())
+        self.values.not_finite().or_else(|| {
+            let drifts = self.is_any_drifting.then_some(&self.drifts)?;
+            drifts.not_finite()
+        })
     }
 
     /// σ of every task.
@@ -124,20 +140,30 @@ impl Evaluation {
         self.values.of(task)[0]
     }
 
+    /// J of a task for which it was asked before.
+    pub(crate) fn known_jacobian(&self, task: TaskId) -> &[f64] {
+        debug_assert!(self.jacobian_known.contains(task));
+        &self.jacobians[task.index()]
+    }
+
     /// ∂σ/∂t of a scalar task [unit/s].
     #[inline]
     pub(crate) fn drift(&self, task: TaskId) -> f64 {
-        self.drifts.of(task)[0]
+        if self.is_any_drifting {
+            self.drifts.of(task)[0]
+        } else {
+            0.0
+        }
     }
 
     /// J of a task, row after row.
     #[inline]
     pub(crate) fn jacobian(&mut self, stack: &Stack, task: TaskId) -> &[f64] {
         let jacobian = &mut self.jacobians[task.index()];
-        if !self.jacobian_known[task.index()] {
+        if !self.jacobian_known.contains(task) {
             let mut target = JacobianMut::new(jacobian, stack.dof());
             stack[task].task().jacobian(&self.kinematics, &mut target);
-            self.jacobian_known[task.index()] = true;
+            self.jacobian_known.insert(task);
         }
         jacobian
     }

@@ -9,6 +9,7 @@
 use alloc::vec::Vec;
 
 use crate::active::ActiveSet;
+use crate::damping::Damping;
 use crate::evaluation::Evaluation;
 use crate::linalg::{Damped, MinimumNorm, RowSpace, add_scaled, copy, dot};
 use crate::real::sqrt;
@@ -32,6 +33,8 @@ pub(crate) struct Hierarchy {
     /// J⁺ σ̇_ref of each lower level: the same in every mode, so computed once per tick.
     asked: Vec<f64>,
     asked_known: Vec<bool>,
+    /// Directions that each lower level had lost in the last velocity.
+    lost: Vec<usize>,
     /// σ̇_ref of the level at hand.
     rate: Vec<f64>,
     /// N J⁺ σ̇_ref of the level at hand.
@@ -64,6 +67,7 @@ impl Hierarchy {
             rows: alloc::vec![0.0; max_rows * dof],
             asked: alloc::vec![0.0; lower.len() * dof],
             asked_known: alloc::vec![false; lower.len()],
+            lost: alloc::vec![0; lower.len()],
             lower,
             rate: alloc::vec![0.0; max_rows],
             projected: alloc::vec![0.0; dof],
@@ -94,10 +98,20 @@ impl Hierarchy {
         }
         // The new direction q is orthogonal to the rows before it, so those keep their rates.
         let (before, added) = self.frozen_rates.split_at_mut(rank);
+        if rate == 0.0 && before.iter().all(|rate| *rate == 0.0) {
+            added[0] = 0.0;
+            return true;
+        }
         let direction = |k: usize| &self.above.basis_from(k)[..self.dof];
         let known: f64 = (0..rank).map(|k| before[k] * dot(row, direction(k))).sum();
         added[0] = (rate - known) / dot(row, direction(rank));
         true
+    }
+
+    /// The lower levels that had lost directions in the last velocity, and how many.
+    pub(crate) fn lost(&self) -> impl Iterator<Item = (TaskId, usize)> {
+        let levels = self.lower.iter().copied().zip(self.lost.iter().copied());
+        levels.filter(|(_, lost)| *lost > 0)
     }
 
     /// Number of independent frozen rows.
@@ -120,9 +134,11 @@ impl Hierarchy {
         velocity: &mut [f64],
     ) {
         let frozen = self.above.rank();
-        velocity.fill(0.0);
-        for (k, rate) in self.frozen_rates[..frozen].iter().enumerate() {
-            if *rate != 0.0 {
+        let frozen_rates = &self.frozen_rates[..frozen];
+        let mut is_zero = frozen_rates.iter().all(|rate| *rate == 0.0);
+        if !is_zero {
+            velocity.fill(0.0);
+            for (k, rate) in frozen_rates.iter().enumerate() {
                 add_scaled(velocity, *rate, &self.above.basis_from(k)[..self.dof]);
             }
         }
@@ -130,6 +146,7 @@ impl Hierarchy {
         for place in 0..self.lower.len() {
             let task = self.lower[place];
             if stack[task].interval().is_some() && !active.contains(task) {
+                self.lost[place] = 0;
                 continue;
             }
             // The rows of a level are stacked when there is a level below that must respect them.
@@ -137,31 +154,64 @@ impl Hierarchy {
                 self.above.push_block(evaluation.jacobian(stack, previous));
             }
             match self.recursion {
-                Recursion::Chiaverini => self.add_projected(stack, evaluation, place, velocity),
-                Recursion::SicilianoSlotine => self.add_fitted(stack, evaluation, task, velocity),
+                Recursion::Chiaverini => {
+                    self.find_asked(stack, evaluation, place);
+                    self.add_projected(place, is_zero, velocity);
+                }
+                Recursion::SicilianoSlotine => {
+                    if is_zero {
+                        velocity.fill(0.0);
+                    }
+                    self.add_fitted(stack, evaluation, place, velocity);
+                }
             }
+            is_zero = false;
+        }
+        if is_zero {
+            velocity.fill(0.0);
         }
         self.above.truncate(frozen);
     }
 
-    /// q̇ += N J⁺ σ̇_ref
-    fn add_projected(
-        &mut self,
-        stack: &Stack,
-        evaluation: &mut Evaluation,
-        place: usize,
-        velocity: &mut [f64],
-    ) {
+    /// J⁺ σ̇_ref, once per tick.
+    #[inline]
+    fn find_asked(&mut self, stack: &Stack, evaluation: &mut Evaluation, place: usize) {
         let asked = &mut self.asked[place * self.dof..][..self.dof];
         if !self.asked_known[place] {
             let task = self.lower[place];
             let rate = rate_asked(stack, evaluation, task, &mut self.rate);
-            self.minimum_norm
-                .solve(evaluation.jacobian(stack, task), rate, asked);
+            let jacobian = evaluation.jacobian(stack, task);
+            let damping = stack[task]
+                .damping()
+                .or_else(Damping::of_search(Recursion::Chiaverini));
+            self.lost[place] = if damping == Damping::None {
+                rate.len() - self.minimum_norm.solve(jacobian, rate, asked)
+            } else {
+                asked.fill(0.0);
+                let variable = self.period * sqrt(dot(rate, rate));
+                self.damped.add(damping, jacobian, rate, variable, asked);
+                self.damped.lost()
+            };
             self.asked_known[place] = true;
         }
-        copy(&mut self.projected, asked);
-        self.above.project_out(&mut self.projected);
+    }
+
+    /// q̇ += N J⁺ σ̇_ref
+    #[inline]
+    fn add_projected(&mut self, place: usize, is_zero: bool, velocity: &mut [f64]) {
+        let asked = &self.asked[place * self.dof..][..self.dof];
+        if is_zero {
+            copy(velocity, asked);
+            project_strictly(&self.above, velocity);
+        } else {
+            copy(&mut self.projected, asked);
+            self.add_strictly_below(velocity);
+        }
+    }
+
+    /// q̇ += N v for the motion v at hand.
+    fn add_strictly_below(&mut self, velocity: &mut [f64]) {
+        project_strictly(&self.above, &mut self.projected);
         add_scaled(velocity, 1.0, &self.projected);
     }
 
@@ -170,11 +220,12 @@ impl Hierarchy {
         &mut self,
         stack: &Stack,
         evaluation: &mut Evaluation,
-        task: TaskId,
+        place: usize,
         velocity: &mut [f64],
     ) {
+        let task = self.lower[place];
         let gap = rate_asked(stack, evaluation, task, &mut self.rate);
-        let lambda_squared = self.period * sqrt(dot(gap, gap));
+        let variable = self.period * sqrt(dot(gap, gap));
         let jacobian = evaluation.jacobian(stack, task);
         let rows = &mut self.rows[..jacobian.len()];
         rows.copy_from_slice(jacobian);
@@ -182,10 +233,26 @@ impl Hierarchy {
             *gap -= dot(row, velocity);
             self.above.project_out(row);
         }
-        if self.damped.add_if_regular(rows, gap, velocity).is_none() {
-            self.damped
-                .add_by_direction(rows, gap, lambda_squared, velocity);
+        self.projected.fill(0.0);
+        let motion = &mut self.projected;
+        let damping = stack[task]
+            .damping()
+            .or_else(Damping::of_search(Recursion::SicilianoSlotine));
+        let is_fixed = matches!(damping, Damping::Fixed(_));
+        if is_fixed || self.damped.add_if_regular(rows, gap, motion).is_none() {
+            self.damped.add(damping, rows, gap, variable, motion);
         }
+        self.lost[place] = self.damped.lost();
+        self.add_strictly_below(velocity);
+    }
+}
+
+/// v ← N v. Near a singularity v may be much longer than N v; the second time takes out what rounding has
+/// left of the rows above.
+#[inline]
+fn project_strictly(above: &RowSpace, v: &mut [f64]) {
+    for _ in 0..2 {
+        above.project_out(v);
     }
 }
 

@@ -5,7 +5,7 @@ use alloc::vec::Vec;
 use crate::geometry::{Pose, Vec3};
 use crate::joints::JointVec;
 use crate::robot::dh::Link;
-use crate::robot::{JointKind, Robot};
+use crate::robot::{Joint, JointKind, Robot};
 use crate::trigonometry::sin_cos;
 
 /// A frame of the robot.
@@ -29,6 +29,7 @@ pub struct Kinematics {
     /// frame before it.
     base_from_frame: Vec<Pose>,
     twists: Vec<TwoTwists>,
+    reach: f64,
     q: JointVec,
     /// θ of each joint [rad], its sine and its cosine.
     angles: JointVec,
@@ -52,6 +53,7 @@ impl Kinematics {
             links: robot.joints().iter().map(Link::new).collect(),
             base_from_frame: alloc::vec![Pose::IDENTITY; robot.dof() + 1],
             twists: alloc::vec![TwoTwists::default(); robot.dof().div_ceil(2)],
+            reach: robot.joints().iter().map(length).sum(),
             q: zeros,
             angles: zeros,
             sines: zeros,
@@ -80,15 +82,19 @@ impl Kinematics {
             *angle = link.angle(*position);
         }
         sin_cos(&self.angles, &mut self.sines, &mut self.cosines);
+        let turned = self.sines.iter().zip(self.cosines.iter());
+        let joints = self.links.iter().zip(self.q.iter()).zip(turned);
         let mut pose = Pose::IDENTITY;
-        for (i, link) in self.links.iter().enumerate() {
+        for (i, (((link, position), (sin, cos)), frame)) in
+            joints.zip(&mut self.base_from_frame[1..]).enumerate()
+        {
             let (turn, slide) = match link.kind() {
                 JointKind::Revolute => (pose.z_axis, pose.origin.cross(pose.z_axis)),
                 JointKind::Prismatic => (Vec3::ZERO, pose.z_axis),
             };
             self.twists[i / 2].set(i % 2, turn, slide);
-            pose = link.advance(&pose, self.q[i], (self.sines[i], self.cosines[i]));
-            self.base_from_frame[i + 1] = pose;
+            pose = link.advance(&pose, *position, (*sin, *cos));
+            *frame = pose;
         }
     }
 
@@ -96,6 +102,13 @@ impl Kinematics {
     #[inline]
     pub fn dof(&self) -> usize {
         self.links.len()
+    }
+
+    /// The most that a point of the robot can be away from a joint that moves it [m]; infinite if the
+    /// robot has sliding joints.
+    #[inline]
+    pub fn reach(&self) -> f64 {
+        self.reach
     }
 
     /// The configuration [rad or m].
@@ -163,6 +176,45 @@ impl Kinematics {
         });
     }
 
+    /// Adds the second derivatives [m/rad²] of the origin of `frame` along `direction` to `hessian`, one
+    /// row of one entry per joint for each joint.
+    pub fn add_point_curvature(&self, frame: Frame, direction: Vec3, hessian: &mut [f64]) {
+        self.add_curvature(frame, hessian, |axis, row| {
+            self.point_row(frame, direction.cross(axis), row);
+        });
+    }
+
+    /// Adds the second derivatives [1/rad²] of the z axis of `frame` along `direction` to `hessian`, one
+    /// row of one entry per joint for each joint.
+    pub fn add_axis_curvature(&self, frame: Frame, direction: Vec3, hessian: &mut [f64]) {
+        self.add_curvature(frame, hessian, |axis, row| {
+            self.axis_row(frame, direction.cross(axis), row);
+        });
+    }
+
+    /// Joint i turns all that joint j ≥ i does: the second derivative along d is d · (zᵢ × Jⱼ), which
+    /// is column j of the row along d × zᵢ.
+    fn add_curvature(
+        &self,
+        frame: Frame,
+        hessian: &mut [f64],
+        row_along: impl Fn(Vec3, &mut [f64]),
+    ) {
+        let n = self.dof();
+        let mut row = JointVec::zeros(n);
+        for i in 0..self.joints_before(frame) {
+            if self.links[i].kind() == JointKind::Prismatic {
+                continue;
+            }
+            row_along(self.base_from_frame[i].z_axis, &mut row);
+            hessian[i * n + i] += row[i];
+            for j in i + 1..n {
+                hessian[i * n + j] += row[j];
+                hessian[j * n + i] += row[j];
+            }
+        }
+    }
+
     /// Fills `row` two joints at a time; joints after `frame` do not move it.
     #[inline]
     fn fill_row(&self, frame: Frame, row: &mut [f64], entry: impl Fn(&TwoTwists, usize) -> f64) {
@@ -184,6 +236,14 @@ impl Kinematics {
         for still in &mut row[self.joints_before(frame)..] {
             *still = 0.0;
         }
+    }
+}
+
+/// How far the frame after a joint can be from the frame before it [m].
+fn length(joint: &Joint) -> f64 {
+    match joint.kind {
+        JointKind::Revolute => joint.dh.a_m.abs() + joint.dh.d_m.abs(),
+        JointKind::Prismatic => f64::INFINITY,
     }
 }
 

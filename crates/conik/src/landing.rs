@@ -23,6 +23,7 @@
 
 use alloc::vec::Vec;
 
+use crate::barrier::NEAR;
 use crate::border::{Borders, MARGIN};
 use crate::evaluation::Evaluation;
 use crate::joints::JointVec;
@@ -37,6 +38,15 @@ const CORRECTIONS: usize = 2;
 
 /// Halvings before the arm stands still.
 const HALVINGS: usize = 2;
+
+/// After a tick that had to stand still, the next one sets out with this share of the share before.
+/// So halving goes on from tick to tick until a step is short enough for the rows at q, and no tick
+/// takes more kinematics than another.
+const CAUTION: f64 = 0.125;
+
+/// Shares of the margin that a correction is content with where it cannot have all of it. Two bounds may
+/// be closer than two margins: those of sets that were never entered and contradict each other.
+const MARGIN_SHARES: [f64; 2] = [0.5, 0.0625];
 
 /// What it took to land.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -73,8 +83,12 @@ pub(crate) struct Landing {
     bounds: Vec<f64>,
     equalities: Vec<usize>,
     change: Vec<f64>,
+    /// Sides that were left out are kept by every change with Σ|Δq̇ᵢ| up to this [rad/s].
+    horizon: f64,
     /// The trial of the least violation so far.
     best: Option<Best>,
+    /// Share of the velocity that the next tick tries first.
+    caution: f64,
     period: f64,
 }
 
@@ -112,7 +126,9 @@ impl Landing {
             bounds: Vec::with_capacity(2 * (stack.len() + stack.dof())),
             equalities: Vec::with_capacity(2 * stack.len()),
             change: alloc::vec![0.0; stack.dof()],
+            horizon: f64::INFINITY,
             best: None,
+            caution: 1.0,
             period,
         }
     }
@@ -130,15 +146,21 @@ impl Landing {
     ) -> Landed {
         let mut landed = Landed::default();
         self.best = None;
-        self.sides.clear();
         let mut corrections = 0;
+        if self.caution < 1.0 {
+            is_shortened = true;
+            shorten(qd, approach.anchor, self.caution);
+        }
         loop {
             self.aim(q, qd, target);
             landed.kinematics += 1;
             approach.there.look_ahead(approach.stack, target);
             let is_last = corrections == CORRECTIONS;
             match worst(approach, |task| approach.there.scalar(task)) {
-                None if is_shortened || is_last || approach.holds_margins() => return landed,
+                None if is_shortened || is_last || approach.holds_margins() => {
+                    self.caution = (2.0 * self.caution).min(1.0);
+                    return landed;
+                }
                 None => {}
                 Some(outside) => self.remember(outside, qd),
             }
@@ -153,15 +175,16 @@ impl Landing {
             }
             if landed.halvings == HALVINGS {
                 self.give_in(approach, qd, &mut landed);
+                if landed.stood_still {
+                    self.caution = (self.caution * CAUTION).max(f64::MIN_POSITIVE);
+                }
                 self.aim(q, qd, target);
                 return landed;
             }
             landed.halvings += 1;
             corrections = 0;
             is_shortened = true;
-            for (speed, anchor) in qd.iter_mut().zip(approach.anchor) {
-                *speed = anchor + 0.5 * (*speed - anchor);
-            }
+            shorten(qd, approach.anchor, 0.5);
         }
     }
 
@@ -203,21 +226,24 @@ impl Landing {
         is_shortened: bool,
         qd: &mut JointVec,
     ) -> bool {
-        self.gather(approach);
-        self.rows.clear();
-        self.rows.extend_from_slice(self.sides.rows());
-        self.bounds.clear();
-        self.equalities.clear();
-        for (i, (side, _)) in self.sides.iter().enumerate() {
-            let inside = side.inside(
-                &approach.borders.next_interval(side.task),
-                approach.there.scalar(side.task),
-            );
-            self.bounds.push(landing_rate(inside, self.period));
-            if approach.held.contains(side) && !is_shortened {
-                self.equalities.push(i);
+        // Almost always the sides that are near decide alone.
+        for near in [NEAR, f64::INFINITY] {
+            self.gather(approach, near, is_shortened);
+            if !self.find_change(approach, qd) {
+                return false;
+            }
+            if self.change.iter().map(|speed| speed.abs()).sum::<f64>() <= self.horizon {
+                add_scaled(qd, 1.0, &self.change);
+                return true;
             }
         }
+        false
+    }
+
+    /// The least change under the sides gathered and the joints' ranges.
+    fn find_change(&mut self, approach: &mut Approach<'_>, qd: &JointVec) -> bool {
+        self.rows.clear();
+        self.rows.extend_from_slice(self.sides.rows());
         let sides = self.bounds.len();
         if approach.limits.has_acceleration() {
             approach
@@ -231,20 +257,23 @@ impl Landing {
         // Held sides that cannot all be met may still all be kept, and sets come before accelerations.
         let (held, all) = (self.equalities.len(), self.bounds.len());
         let attempts = [(held, all), (0, all), (0, sides)];
-        attempts.into_iter().enumerate().any(|(i, attempt)| {
+        let with_margin = attempts.into_iter().enumerate().any(|(i, attempt)| {
             let (held, rows) = attempt;
-            !attempts[..i].contains(&attempt) && self.change_by_least(approach, held, rows, qd)
-        })
+            !attempts[..i].contains(&attempt) && self.change_by_least(approach, held, rows)
+        });
+        let mut share = 1.0;
+        with_margin
+            || MARGIN_SHARES.into_iter().any(|less| {
+                for bound in &mut self.bounds[..sides] {
+                    *bound -= (share - less) * MARGIN / self.period;
+                }
+                share = less;
+                self.change_by_least(approach, 0, sides)
+            })
     }
 
-    /// q̇ += the least change under the first `rows` rows, the first `held` held sides met exactly.
-    fn change_by_least(
-        &mut self,
-        approach: &mut Approach<'_>,
-        held: usize,
-        rows: usize,
-        qd: &mut JointVec,
-    ) -> bool {
+    /// The least change under the first `rows` rows, the first `held` held sides met exactly.
+    fn change_by_least(&mut self, approach: &mut Approach<'_>, held: usize, rows: usize) -> bool {
         self.change.fill(0.0);
         self.solver.set_identity();
         let constraints = Constraints {
@@ -252,26 +281,37 @@ impl Landing {
             bounds: &self.bounds[..rows],
             equalities: &self.equalities[..held],
         };
-        let solution = self
-            .solver
-            .solve(&mut self.change, constraints, approach.pivots);
-        if solution == Solution::Optimal {
-            add_scaled(qd, 1.0, &self.change);
-        }
-        solution == Solution::Optimal
+        let change = &mut self.change;
+        self.solver.solve(change, constraints, approach.pivots) == Solution::Optimal
     }
 
-    /// All sides of the high-priority sets, once a tick.
-    fn gather(&mut self, approach: &mut Approach<'_>) {
-        if self.sides.len() > 0 {
-            return;
-        }
+    /// The sides of the high-priority sets with what the trial found of them, but for those that no
+    /// change with Σ|Δq̇ᵢ| up to `near` can violate.
+    fn gather(&mut self, approach: &mut Approach<'_>, near: f64, is_shortened: bool) {
+        self.sides.clear();
+        self.bounds.clear();
+        self.equalities.clear();
+        self.horizon = f64::INFINITY;
         for (task, level) in approach.stack.iter() {
             let Some(set) = level.interval() else { break };
-            for side in Side::both(task) {
-                if side.inside(set, 0.0).is_finite() {
-                    self.sides.push(approach.stack, approach.here, side);
+            let (next, sigma) = (
+                approach.borders.next_interval(task),
+                approach.there.scalar(task),
+            );
+            let bounded = |side: &Side| side.inside(set, 0.0).is_finite();
+            for side in Side::both(task).into_iter().filter(bounded) {
+                let bound = landing_rate(side.inside(&next, sigma), self.period);
+                let is_held = approach.held.contains(side) && !is_shortened;
+                let horizon = -bound / approach.here.steepness(approach.stack, task);
+                if horizon > near && !is_held {
+                    self.horizon = self.horizon.min(horizon);
+                    continue;
                 }
+                if is_held {
+                    self.equalities.push(self.bounds.len());
+                }
+                self.sides.push(approach.stack, approach.here, side);
+                self.bounds.push(bound);
             }
         }
     }
@@ -316,4 +356,11 @@ fn worst(approach: &Approach<'_>, value: impl Fn(TaskId) -> f64) -> Option<Outsi
         }
     }
     worst
+}
+
+/// What `share` leaves of a velocity beyond its anchor.
+fn shorten(qd: &mut JointVec, anchor: &[f64], share: f64) {
+    for (speed, anchor) in qd.iter_mut().zip(anchor) {
+        *speed = anchor + share * (*speed - anchor);
+    }
 }

@@ -98,6 +98,11 @@ impl Limits {
 
     /// Shortens a velocity towards `anchor` until every joint is within its speed limit.
     pub(crate) fn shorten_to_speed(&self, qd: &mut [f64], anchor: &[f64]) -> Option<Shortened> {
+        // Almost always none is too fast, which is found out without a branch for each joint.
+        let speeds = qd.iter().zip(&self.speed);
+        if !speeds.fold(false, |found, (qd, limit)| found | (qd.abs() > *limit)) {
+            return None;
+        }
         shorten(qd, anchor, |joint| self.range(joint, None))
     }
 

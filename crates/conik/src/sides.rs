@@ -10,6 +10,7 @@ use crate::active::ActiveSet;
 use crate::border::MARGIN;
 use crate::cone::Interval;
 use crate::evaluation::Evaluation;
+use crate::linalg::copy;
 use crate::stack::Stack;
 use crate::task_id::TaskId;
 
@@ -98,6 +99,7 @@ impl Held {
 #[derive(Debug)]
 pub(crate) struct Sides {
     list: Vec<Side>,
+    /// Room for the rows of all sides; those of `list` stand first.
     rows: Vec<f64>,
     dof: usize,
 }
@@ -110,24 +112,25 @@ impl Sides {
             .count();
         Self {
             list: Vec::with_capacity(2 * sets),
-            rows: Vec::with_capacity(2 * sets * stack.dof()),
+            rows: alloc::vec![0.0; 2 * sets * stack.dof()],
             dof: stack.dof(),
         }
     }
 
     pub(crate) fn clear(&mut self) {
         self.list.clear();
-        self.rows.clear();
     }
 
     /// Adds a side with its row.
     pub(crate) fn push(&mut self, stack: &Stack, evaluation: &mut Evaluation, side: Side) {
         let jacobian = evaluation.jacobian(stack, side.task);
+        let row = &mut self.rows[self.list.len() * self.dof..][..self.dof];
         self.list.push(side);
+        copy(row, jacobian);
         if side.is_upper {
-            self.rows.extend(jacobian.iter().map(|entry| -entry));
-        } else {
-            self.rows.extend_from_slice(jacobian);
+            for entry in row {
+                *entry = -*entry;
+            }
         }
     }
 
@@ -144,15 +147,11 @@ impl Sides {
 
     /// The row that was added last.
     pub(crate) fn last_row(&self) -> &[f64] {
-        &self.rows[self.rows.len() - self.dof..]
+        &self.rows[(self.list.len() - 1) * self.dof..][..self.dof]
     }
 
     pub(crate) fn rows(&self) -> &[f64] {
-        &self.rows
-    }
-
-    pub(crate) fn len(&self) -> usize {
-        self.list.len()
+        &self.rows[..self.list.len() * self.dof]
     }
 }
 

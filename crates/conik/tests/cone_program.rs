@@ -86,6 +86,7 @@ fn assert_first_ticks(
 fn config() -> ProptestConfig {
     ProptestConfig {
         rng_seed: RngSeed::Fixed(3),
+        max_global_rejects: 20_000,
         failure_persistence: None,
         ..ProptestConfig::with_cases(500)
     }

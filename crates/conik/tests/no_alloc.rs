@@ -5,19 +5,22 @@ mod paper;
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
 
-use conik::{ModeRule, Settings};
+use conik::{
+    Axis, Border, Controller, Coordinate, DhRow, Distance, FieldOfView, JointPosition, JointVec,
+    ModeRule, Position, Recursion, Robot, Settings, Stack, StackError,
+};
 use paper::Example;
 
 struct Counting;
 
 thread_local! {
-    /// Of this thread alone: the test harness has others.
+    /// Of this thread alone: the harness has threads of its own.
     static ALLOCATIONS: Cell<u64> = const { Cell::new(0) };
 }
 
+/// Counts nothing while a thread ends and its counter is gone.
 fn count() {
-    // While a thread ends there is nothing left to count in.
-    let _ = ALLOCATIONS.try_with(|n| n.set(n.get() + 1));
+    let _ = ALLOCATIONS.try_with(|allocations| allocations.set(allocations.get() + 1));
 }
 
 #[allow(
@@ -44,31 +47,96 @@ unsafe impl GlobalAlloc for Counting {
 #[global_allocator]
 static ALLOCATOR: Counting = Counting;
 
-#[test]
-fn no_tick_of_any_example_allocates() {
-    for number in 1..=3 {
-        let border = Settings {
-            mode_rule: ModeRule::Border,
-            ..Settings::of_the_paper()
-        };
-        for settings in [Settings::of_the_paper(), border, Settings::at_rate(125.0)] {
-            let mut example = Example::new(number, paper::thesis(), settings);
-            let before = ALLOCATIONS.get();
-            let mut most_active = 0;
-            for _ in 0..7500 {
-                most_active = most_active.max(example.tick().active.len());
+/// Every rule, border and recursion.
+fn all_settings() -> Vec<Settings> {
+    let mut all = Vec::new();
+    for mode_rule in [ModeRule::Paper, ModeRule::Border, ModeRule::Cone] {
+        for border in [Border::Freeze, Border::Land] {
+            for recursion in [Recursion::Chiaverini, Recursion::SicilianoSlotine] {
+                all.push(Settings {
+                    mode_rule,
+                    border,
+                    recursion,
+                    ..Settings::at_rate(125.0)
+                });
             }
-            // Bad input takes its own way out.
-            assert!(example.controller.step(&[f64::NAN; 6]).is_err());
-            assert!(example.controller.step(&[0.0; 5]).is_err());
-            assert_eq!(ALLOCATIONS.get(), before, "example {number}");
-            assert!(
-                most_active >= 1,
-                "the run went through modes with active sets"
-            );
         }
     }
-    let before = ALLOCATIONS.get();
+    all
+}
+
+/// Nine joints, two sets on each of them, walls and an obstacle, and four levels below, one of them a
+/// set.
+fn large(settings: Settings) -> Controller {
+    let rows: Vec<DhRow> = (0..9_u8)
+        .map(|i| DhRow::new(0.15, f64::from(i % 3) - 1.0, 0.05))
+        .collect();
+    let robot = Robot::from_dh("nine", &rows).expect("sound");
+    let mut stack = Stack::new(&robot);
+    let mut fill = || -> Result<(), StackError> {
+        for i in 0..9 {
+            let joint = JointPosition::of(i);
+            stack.set(&format!("range {i}"), joint, -0.2..=0.6)?;
+        }
+        for axis in [Axis::X, Axis::Y, Axis::Z] {
+            let wall = Coordinate::of_tool(axis);
+            stack.set(&format!("wall {axis:?}"), wall, -0.7..=0.9)?;
+        }
+        stack.set("ball", Distance::of_tool_to([0.6, 0.1, 0.2]), 0.1..)?;
+        let view = FieldOfView::of_tool_along([0.2, 0.5, 1.0]);
+        stack.equality("position", Position::of_tool(), &[0.5, -0.4, 0.5], 1.0)?;
+        stack.set_with_gain("view", view, ..=0.5, 1.0)?;
+        stack.equality("turn", view, &[0.1], 1.0)?;
+        stack.equality("posture", JointPosition::of(2), &[0.9], 1.0)?;
+        Ok(())
+    };
+    fill().expect("a sound stack");
+    Controller::new(&robot, stack, settings).expect("sound settings")
+}
+
+fn allocations() -> u64 {
+    ALLOCATIONS.get()
+}
+
+/// Ticks of an example, bad input included. The most sets that were active at once.
+fn run_example(number: u8, settings: Settings) -> usize {
+    let mut example = Example::new(number, paper::thesis(), settings);
+    let before = allocations();
+    let mut most_active = 0;
+    for _ in 0..2000 {
+        most_active = most_active.max(example.tick().active.len());
+    }
+    // Bad input takes its own way out.
+    assert!(example.controller.step(&[f64::NAN; 6]).is_err());
+    assert!(example.controller.step(&[0.0; 5]).is_err());
+    assert_eq!(allocations(), before, "example {number}, {settings:?}");
+    most_active
+}
+
+/// The same for the large stack.
+fn run_large(settings: Settings) -> usize {
+    let mut controller = large(settings);
+    let mut q = JointVec::zeros(9);
+    let before = allocations();
+    let mut most_active = 0;
+    for _ in 0..100 {
+        let step = controller.step(&q).expect("finite");
+        most_active = most_active.max(step.active.len());
+        q = step.q_ref;
+    }
+    assert_eq!(allocations(), before, "large stack, {settings:?}");
+    most_active
+}
+
+#[test]
+fn no_tick_allocates() {
+    for settings in all_settings() {
+        for number in 1..=3 {
+            assert!(run_example(number, settings) >= 1, "sets were active");
+        }
+        assert!(run_large(settings) >= 2, "sets were active, {settings:?}");
+    }
+    let before = allocations();
     drop(std::hint::black_box(Box::new(1)));
-    assert!(ALLOCATIONS.get() > before, "the counter counts");
+    assert!(allocations() > before, "the counter counts");
 }

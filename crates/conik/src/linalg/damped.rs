@@ -13,6 +13,9 @@
 
 use alloc::vec::Vec;
 
+use crate::damping::Damping;
+
+use super::row_space::push_row;
 use super::symmetric::{eigenvectors, factor, solve};
 use super::{COMMON, add_scaled, dot};
 use crate::real::sqrt;
@@ -38,6 +41,18 @@ pub(crate) struct Damped {
     hessian: Vec<f64>,
     dof: usize,
     count: usize,
+    lost: usize,
+}
+
+/// wⱼ of a direction with this squared singular value, `least` being the smallest of all.
+fn weight(damping: Damping, squared: f64, least: f64) -> f64 {
+    let undamped = |squared: f64| (squared.max(0.0) / (SINGULAR * SINGULAR)).min(1.0);
+    match damping {
+        Damping::None => 1.0,
+        Damping::Fixed(_) => 0.0,
+        Damping::Smallest => undamped(least),
+        Damping::Automatic | Damping::PerDirection => undamped(squared),
+    }
 }
 
 impl Damped {
@@ -51,6 +66,7 @@ impl Damped {
             hessian: alloc::vec![0.0; dof * dof],
             dof,
             count: 0,
+            lost: 0,
         }
     }
 
@@ -90,51 +106,46 @@ impl Damped {
             (3, COMMON) => add_if_regular(3, COMMON, gram, rows, g, w, x),
             (count, dof) => add_if_regular(count, dof, gram, rows, g, w, x),
         };
+        self.lost = usize::from(!is_regular);
         is_regular.then_some(&self.rhs[..g.len()])
     }
 
-    /// x += Aᵀ (A Aᵀ + (1 − (s/ε)²) λ² I)⁻¹ g, s the smallest singular value: all directions damped
-    /// alike, more the nearer the rows are to losing rank.
-    pub(crate) fn add_damped(
+    /// vᵀ (A Aᵀ + l₀² I)⁻¹ v for the rows of the last regular solution.
+    pub(crate) fn regular_square(&mut self, v: &[f64]) -> f64 {
+        let w = &mut self.rhs[..v.len()];
+        w.copy_from_slice(v);
+        match v.len() {
+            3 => solve(&self.gram, 3, w),
+            count => solve(&self.gram, count, w),
+        }
+        dot(v, w)
+    }
+
+    /// x += the solution for rows that may all be used: Σⱼ yⱼ sⱼ (uⱼ g) / (sⱼ² + l₀² + (1 − wⱼ) λ²).
+    pub(crate) fn add(
         &mut self,
+        damping: Damping,
         rows: &[f64],
         g: &[f64],
-        lambda_squared: f64,
+        variable: f64,
         x: &mut [f64],
     ) {
+        let lambda_squared = damping.lambda_squared(variable);
         self.fill_gram(rows, 0.0);
         let n = self.count;
         eigenvectors(&mut self.gram, n, &mut self.eigenvectors);
         let least = (0..n)
             .map(|k| self.gram[k * n + k])
-            .fold(f64::INFINITY, f64::min)
-            .max(0.0);
-        let shift =
-            lambda_squared * (1.0 - least / (SINGULAR * SINGULAR)).max(0.0) + STRICT * STRICT;
-        self.fill_gram(rows, shift);
-        self.rhs[..n].copy_from_slice(g);
-        factor(&mut self.gram, n);
-        solve(&self.gram, n, &mut self.rhs[..n]);
-        for (row, y) in rows.chunks_exact(self.dof).zip(&self.rhs[..n]) {
-            add_scaled(x, *y, row);
-        }
-    }
-
-    /// x += the solution for rows that may all be used, every direction damped by its own singular
-    /// value: Σⱼ yⱼ sⱼ (uⱼ g) / (sⱼ² + l₀² + (1 − wⱼ) λ²).
-    pub(crate) fn add_by_direction(
-        &mut self,
-        rows: &[f64],
-        g: &[f64],
-        lambda_squared: f64,
-        x: &mut [f64],
-    ) {
-        self.fill_gram(rows, 0.0);
-        let n = self.count;
-        eigenvectors(&mut self.gram, n, &mut self.eigenvectors);
+            .fold(f64::INFINITY, f64::min);
+        self.lost = 0;
         for k in 0..n {
-            let squared = self.gram[k * n + k].max(0.0);
-            let weight = (squared / (SINGULAR * SINGULAR)).min(1.0);
+            let squared = self.gram[k * n + k];
+            self.lost += usize::from(squared < SINGULAR * SINGULAR);
+            if squared <= NO_DIRECTION * NO_DIRECTION {
+                // What rounding leaves of rows that are taken is no direction to move in.
+                continue;
+            }
+            let weight = weight(damping, squared, least);
             let vector = &self.eigenvectors[k * n..][..n];
             let share =
                 dot(vector, g) / (squared + STRICT * STRICT + (1.0 - weight) * lambda_squared);
@@ -144,14 +155,38 @@ impl Damped {
         }
     }
 
+    /// How many directions of the rows had a singular value below ε when they were last looked at.
+    pub(crate) fn lost(&self) -> usize {
+        self.lost
+    }
+
     /// Finds the yⱼ and wⱼ of the usable rows.
-    pub(crate) fn analyse(&mut self, usable: &[f64]) {
+    pub(crate) fn analyse(&mut self, damping: Damping, usable: &[f64]) {
+        let is_fixed = matches!(damping, Damping::Fixed(_));
+        if !is_fixed && self.is_regular(usable) {
+            // All weights are 1, and then any orthonormal rows of the same span will do.
+            self.lost = 0;
+            self.weights.clear();
+            for row in usable.chunks_exact(self.dof) {
+                let found = self.weights.len();
+                if push_row(self.dof, &mut self.directions, found, row) {
+                    self.weights.push(1.0);
+                }
+            }
+            return;
+        }
         self.fill_gram(usable, 0.0);
         let (dof, n) = (self.dof, self.count);
         eigenvectors(&mut self.gram, n, &mut self.eigenvectors);
+        let least = (0..n)
+            .map(|k| self.gram[k * n + k])
+            .fold(f64::INFINITY, f64::min);
         self.weights.clear();
+        self.lost = 0;
         for k in 0..n {
-            let singular = sqrt(self.gram[k * n + k].max(0.0));
+            let squared = self.gram[k * n + k].max(0.0);
+            let singular = sqrt(squared);
+            self.lost += usize::from(singular < SINGULAR);
             if singular <= NO_DIRECTION {
                 continue;
             }
@@ -164,9 +199,26 @@ impl Damped {
             {
                 add_scaled(direction, share / singular, row);
             }
-            let ratio = singular / SINGULAR;
-            self.weights.push((ratio * ratio).min(1.0));
+            self.weights.push(weight(damping, squared, least));
         }
+    }
+
+    /// The square of the smallest singular value of the rows, and l₀².
+    pub(crate) fn least_squared(&mut self, rows: &[f64]) -> f64 {
+        self.fill_gram(rows, 0.0);
+        let n = self.count;
+        eigenvectors(&mut self.gram, n, &mut self.eigenvectors);
+        let least = (0..n).map(|k| self.gram[k * n + k]);
+        least.fold(f64::INFINITY, f64::min).max(0.0) + STRICT * STRICT
+    }
+
+    /// The y, one for each row, with which Aᵀ y is nearest to −g: (A Aᵀ + l₀² I)⁻¹ (−A g).
+    pub(crate) fn balance(&mut self, rows: &[f64], g: &[f64], y: &mut Vec<f64>) {
+        self.fill_gram(rows, STRICT * STRICT);
+        y.clear();
+        y.extend(rows.chunks_exact(self.dof).map(|row| -dot(row, g)));
+        factor(&mut self.gram, self.count);
+        solve(&self.gram, self.count, y);
     }
 
     /// Rows B, orthonormal in H = AᵀA + R, that span what the orthonormal rows `span` span. R is that of

@@ -13,7 +13,8 @@
 //! ```
 //!
 //! and since A z − g = −l₀² w, the multipliers μ of the held rows follow from
-//! Lᵀ μ = Q (Aᵀ (A z − g) + R z) = l₀² (y − Q Aᵀ w).
+//! Lᵀ μ = Q (Aᵀ (A z − g) + R z) = l₀² (y − Q Aᵀ w). As a function of β alone the objective has the
+//! second derivative L⁻ᵀ K L⁻¹, K = l₀² (I + Q Aᵀ (U Uᵀ + l₀² I)⁻¹ A Qᵀ).
 
 use alloc::vec::Vec;
 
@@ -30,6 +31,9 @@ pub(crate) struct HeldFit {
     /// g − A Qᵀ y
     gap: Vec<f64>,
     multipliers: Vec<f64>,
+    /// A column of L⁻¹, and what A makes of it.
+    column: Vec<f64>,
+    image: Vec<f64>,
     dof: usize,
 }
 
@@ -58,6 +62,8 @@ impl HeldFit {
             y: alloc::vec![0.0; dof],
             gap: alloc::vec![0.0; max_rows],
             multipliers: alloc::vec![0.0; dof],
+            column: alloc::vec![0.0; dof],
+            image: alloc::vec![0.0; max_rows],
             dof,
         }
     }
@@ -107,6 +113,31 @@ impl HeldFit {
         self.multipliers[..rank]
             .iter()
             .all(|&multiplier| multiplier >= 0.0)
+    }
+
+    /// How far beyond its bound [unit/s] the held row `k` of `rank` would go if it alone were let go, A
+    /// having `count` rows.
+    pub(crate) fn rate_if_released(
+        &mut self,
+        k: usize,
+        rank: usize,
+        count: usize,
+        damped: &mut Damped,
+    ) -> f64 {
+        let column = &mut self.column[..rank];
+        column.fill(0.0);
+        column[k] = 1.0 / self.factor[k * self.dof + k];
+        for i in k + 1..rank {
+            let known = dot(&self.factor[i * self.dof + k..][..i - k], &column[k..i]);
+            column[i] = -known / self.factor[i * self.dof + i];
+        }
+        let image = &mut self.image[..count];
+        image.fill(0.0);
+        for (j, share) in column.iter().enumerate() {
+            add_scaled(image, *share, &self.shares[j * count..][..count]);
+        }
+        let stiffness = STRICT * STRICT * (dot(column, column) + damped.regular_square(image));
+        self.multipliers[k] / stiffness
     }
 
     /// Multipliers of the held rows, in their order.
@@ -160,13 +191,22 @@ mod tests {
                 sides: &sides,
                 bounds: &bounds,
             };
-            let keeps = fit.solve(problem, &mut Damped::new(6, 4), &mut x);
-            let multipliers = &fit.multipliers()[..2];
+            let mut damped = Damped::new(6, 4);
+            let keeps = fit.solve(problem, &mut damped, &mut x);
+            let multipliers = [fit.multipliers()[0], fit.multipliers()[1]];
             prop_assume!(keeps);
             prop_assert!(multipliers.iter().all(|&multiplier| multiplier >= 0.0));
             for side in held {
                 prop_assert!((dot(&sides[side * 6..][..6], &x) - bounds[side]).abs() < 1e-10);
             }
+            let (first, rate) = (multipliers[0], fit.rate_if_released(0, 2, 3, &mut damped));
+            let mut moved_bounds = bounds;
+            moved_bounds[held[0]] += 1.0;
+            let moved = HeldProblem { bounds: &moved_bounds, ..problem };
+            fit.solve(moved, &mut damped, &mut from.clone());
+            // The multiplier is proportional to how far the bound is from where x would go by itself.
+            let stiffness = fit.multipliers()[0] - first;
+            prop_assert!((rate * stiffness - first).abs() <= 1e-6 * first, "{rate} {stiffness}");
             let z: Vec<f64> = x.iter().zip(from).map(|(x, from)| x - from).collect();
             let undamped = {
                 let mut space = RowSpace::new(6, 3);

@@ -161,7 +161,7 @@ impl RowSpace {
 /// is too little.
 #[inline(always)]
 #[allow(clippy::inline_always, reason = "for the sake of known sizes")]
-fn push_row(dof: usize, basis: &mut [f64], rank: usize, row: &[f64]) -> bool {
+pub(super) fn push_row(dof: usize, basis: &mut [f64], rank: usize, row: &[f64]) -> bool {
     if rank == dof {
         return false;
     }

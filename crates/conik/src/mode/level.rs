@@ -10,10 +10,13 @@
 //! R is the damping of [`Damped`], with λ² = T (l |s| + Σ μ c): near a point where the arm comes to
 //! rest, a tick is a gradient step, and it is stable only if the damping exceeds half a period times
 //! the curvature of what holds it there. |s| stands for the curvature of the task, with l = 1 m for
-//! the reach of the arm; a set that pushes back with multiplier μ adds its own, μ c.
+//! the reach of the arm; a set that pushes back with multiplier μ adds its own, μ c. Below other levels
+//! λ² is at least `LOWER`: their rows push back too, and near a singularity of theirs very hard.
 
 use alloc::vec::Vec;
 
+use super::claims::Claims;
+use crate::damping::Damping;
 use crate::linalg::{
     Constraints, Damped, DualActiveSet, HeldFit, HeldProblem, MinimumNorm, RowSpace, Solution,
     VIOLATION, add_scaled, copy, dot,
@@ -22,6 +25,9 @@ use crate::real::sqrt;
 use crate::settings::{Recursion, Settings};
 use crate::sides::{Held, Sides};
 use crate::stack::Stack;
+
+/// Least λ² of a level below others: that of ε [(task's unit per rad)²].
+const LOWER: f64 = 0.04;
 
 #[derive(Debug)]
 pub(crate) struct LevelProgram {
@@ -35,11 +41,13 @@ pub(crate) struct LevelProgram {
     velocity: Vec<f64>,
     /// The sides, by index, that bind in it, with their multipliers.
     binding: Vec<(usize, f64)>,
-    /// J, or J N.
+    /// Whether it came from `held_fit`, not from `solver`.
+    is_held_fit: bool,
+    /// J, or J N and the motions that are dear to the levels above.
     rows: Vec<f64>,
     /// What of J N is left beside the held sides.
     usable: Vec<f64>,
-    /// s, or s − J q̇₀.
+    /// s, or s − J q̇₀ and none of those.
     gap: Vec<f64>,
     /// Rows of the levels above and of the held sides.
     taken: RowSpace,
@@ -58,13 +66,14 @@ pub(crate) struct Level<'a> {
     pub(crate) asked: &'a [f64],
     /// q̇₀ [rad/s].
     pub(crate) from: &'a [f64],
-    /// The rows of the levels above.
-    pub(crate) above: &'a RowSpace,
+    /// What the levels above have claimed.
+    pub(crate) above: &'a Claims,
     pub(crate) sides: &'a Sides,
     /// b, one for each side.
     pub(crate) bounds: &'a [f64],
     /// Σ μ c [task's unit/s].
     pub(crate) push_back: f64,
+    pub(crate) damping: Damping,
 }
 
 impl LevelProgram {
@@ -84,9 +93,10 @@ impl LevelProgram {
             minimum_norm: MinimumNorm::new(dof, max_rows),
             velocity: alloc::vec![0.0; dof],
             binding: Vec::with_capacity(dof),
-            rows: Vec::with_capacity(max_rows * dof),
+            is_held_fit: false,
+            rows: Vec::with_capacity((max_rows + stack.len() * dof) * dof),
             usable: Vec::with_capacity(max_rows * dof),
-            gap: Vec::with_capacity(max_rows),
+            gap: Vec::with_capacity(max_rows + stack.len() * dof),
             taken: RowSpace::new(dof, max_rows),
             held: Vec::with_capacity(dof),
             free: alloc::vec![0.0; dof * dof],
@@ -104,6 +114,7 @@ impl LevelProgram {
         pivots: &mut usize,
     ) -> Solution {
         self.binding.clear();
+        self.is_held_fit = false;
         self.rows.clear();
         self.rows.extend_from_slice(level.jacobian);
         self.gap.clear();
@@ -129,6 +140,11 @@ impl LevelProgram {
         solution
     }
 
+    /// How many directions of the task's the level had lost, or was about to, in the last solution.
+    pub(crate) fn lost(&self) -> usize {
+        self.damped.lost()
+    }
+
     /// The velocity of the last solution [rad/s].
     pub(crate) fn velocity(&self) -> &[f64] {
         &self.velocity
@@ -139,11 +155,19 @@ impl LevelProgram {
         self.binding.iter().copied()
     }
 
-    /// The sides, by index, that bind in the last solution, with how far beyond its bound each would go
-    /// [unit/s] if it alone were let go.
+    /// How far beyond its bound each binding side would go [unit/s] if it alone were let go, in the order
+    /// of [`binding`](Self::binding).
     pub(crate) fn crossings(&mut self) -> impl Iterator<Item = (usize, f64)> {
-        (0..self.solver.active().len())
-            .map(|k| (self.solver.active()[k], self.solver.rate_if_released(k)))
+        let (rank, count) = (self.binding.len(), self.gap.len());
+        (0..rank).map(move |k| {
+            let rate = if self.is_held_fit {
+                self.held_fit
+                    .rate_if_released(k, rank, count, &mut self.damped)
+            } else {
+                self.solver.rate_if_released(k)
+            };
+            (self.binding[k].0, rate)
+        })
     }
 
     /// Siciliano and Slotine's recursion: the free minimiser, and a basis in its weight. `true` if the
@@ -155,19 +179,32 @@ impl LevelProgram {
             .zip(self.rows.chunks_exact_mut(self.dof))
         {
             *gap -= dot(row, level.from);
-            level.above.project_out(row);
+            level.above.rows().project_out(row);
         }
         self.take_held(level, held);
-        if !must_hold && self.fit_held(level) {
+        let is_fixed = matches!(level.damping, Damping::Fixed(_));
+        let has_closed_form = !must_hold && !is_fixed && level.above.dear().is_empty();
+        if has_closed_form && self.fit_held(level) {
             return true;
         }
         copy(&mut self.velocity, level.from);
         let asked = sqrt(dot(level.asked, level.asked));
-        let lambda_squared = self.period * (asked + level.push_back);
-        self.damped.analyse(&self.usable);
-        let dimension = level.above.complement(&mut self.free);
+        let damping = level
+            .damping
+            .or_else(Damping::of_cone(Recursion::SicilianoSlotine));
+        self.rows.extend_from_slice(level.above.dear());
+        self.gap.resize(self.rows.len() / self.dof, 0.0);
+        let least = if level.above.rows().rank() == 0 {
+            0.0
+        } else {
+            LOWER
+        };
+        let to_rest = self.period * (asked + level.push_back);
+        let lambda_squared = damping.lambda_squared(to_rest.max(least));
+        self.damped.analyse(damping, &self.usable);
+        let dimension = level.above.rows().complement(&mut self.free);
         let free = &self.free[..dimension * self.dof];
-        let taken = self.taken.basis_from(level.above.rank());
+        let taken = self.taken.basis_from(level.above.rows().rank());
         let basis = self.solver.basis_mut(dimension);
         self.damped
             .weighted_basis(&self.rows, lambda_squared, taken, free, basis);
@@ -186,7 +223,7 @@ impl LevelProgram {
 
     /// taken ← rows of the levels above and of the held sides; usable ← what of J N is left.
     fn take_held(&mut self, level: &Level<'_>, held: &Held) {
-        self.taken.copy_from(level.above);
+        self.taken.copy_from(level.above.rows());
         self.held.clear();
         for (i, (side, row)) in level.sides.iter().enumerate() {
             if held.contains(side) && self.taken.push(row) {
@@ -209,7 +246,7 @@ impl LevelProgram {
             rows: &self.rows,
             usable: &self.usable,
             gap: &self.gap,
-            orthonormal: self.taken.basis_from(level.above.rank()),
+            orthonormal: self.taken.basis_from(level.above.rows().rank()),
             held: &self.held,
             sides: level.sides.rows(),
             bounds: level.bounds,
@@ -218,6 +255,7 @@ impl LevelProgram {
             .held_fit
             .solve(problem, &mut self.damped, &mut self.velocity)
             && keeps_every_side(level, &self.velocity);
+        self.is_held_fit = is_solution;
         if is_solution {
             let multipliers = self.held_fit.multipliers().iter().copied();
             self.binding
@@ -230,16 +268,23 @@ impl LevelProgram {
     fn project(&mut self, level: &Level<'_>) {
         let mut motion = [0.0; crate::MAX_JOINTS];
         let motion = &mut motion[..self.dof];
-        if self.damped.is_regular(&self.rows) {
+        let damping = level
+            .damping
+            .or_else(Damping::of_cone(Recursion::Chiaverini));
+        let is_fixed = matches!(damping, Damping::Fixed(_));
+        if damping == Damping::None || (!is_fixed && self.damped.is_regular(&self.rows)) {
             self.minimum_norm.solve(&self.rows, &self.gap, motion);
         } else {
-            let lambda_squared = self.period * sqrt(dot(&self.gap, &self.gap));
+            let variable = self.period * sqrt(dot(&self.gap, &self.gap));
             self.damped
-                .add_damped(&self.rows, &self.gap, lambda_squared, motion);
+                .add(damping, &self.rows, &self.gap, variable, motion);
         }
-        level.above.project_out(motion);
+        // Near a singularity the motion may be much longer than what is left of it: twice is enough.
+        for _ in 0..2 {
+            level.above.rows().project_out(motion);
+        }
         add_scaled(&mut self.velocity, 1.0, motion);
-        let dimension = level.above.complement(&mut self.free);
+        let dimension = level.above.rows().complement(&mut self.free);
         self.solver
             .basis_mut(dimension)
             .copy_from_slice(&self.free[..dimension * self.dof]);

@@ -4,6 +4,8 @@
 //! without going through them all; `nearest` finds the one in which nothing is held that would not
 //! leave.
 
+mod asked;
+mod claims;
 mod level;
 mod nearest;
 mod order;

@@ -1,28 +1,31 @@
 //! The rule `cone`: at each level the velocity nearest to what the task asks, among those that keep
 //! every high-priority set.
 //!
-//! Every side of a high-priority set is a row a q̇ ≥ b (see `sides`), and every level a small
-//! quadratic program under those rows (see `level`). Since b ≤ 0, standing still is feasible; the
-//! programs are strictly convex; so one answer exists, and it does not depend on how tasks are
-//! numbered. A set is *active* if its row binds: it would be left if it were released. Nothing is
-//! ever frozen that would not leave.
+//! Every side of a high-priority set is a row a q̇ ≥ b (see `barrier`), and every level a small
+//! quadratic program under those rows (see `level`). Standing still is feasible, b ≤ 0, or where
+//! something in the world moves the `anchor` is; the programs are strictly convex; so one answer
+//! exists, and it does not depend on how tasks are numbered. A set is *active* if its row binds: it
+//! would be left if it were released. Nothing is ever frozen that would not leave.
 //!
-//! A low-priority set is a level of its own. While the velocity of the levels above keeps it, or brings
-//! it closer from outside, it is inactive and only binds the levels below. Otherwise it is active
-//! and asks: inside, to stop at the border; outside, to come back with its gain. Once active outside
-//! it stays so until it is inside, or the levels above bring it back as fast as it asks.
+//! A low-priority set is a level of its own, and active while it asks for something (see `asked`).
+//! Otherwise it only binds the levels below.
+//!
+//! A level claims its rows from the levels below, and a level that is at rest without having what it
+//! asks, its rest (see `claims`).
 
 use alloc::vec::Vec;
 
+use super::asked::{Asked, Asks};
+use super::claims::{Claims, Turn};
 use super::level::{Level, LevelProgram};
 use crate::active::ActiveSet;
 use crate::barrier::Barrier;
 use crate::border::Borders;
 use crate::evaluation::Evaluation;
-use crate::linalg::{RowSpace, Solution, dot};
+use crate::linalg::{Solution, dot};
 use crate::settings::{Recursion, Settings};
 use crate::sides::{Held, Side, Sides};
-use crate::stack::{Goal, Stack};
+use crate::stack::Stack;
 use crate::task_id::TaskId;
 
 /// A side that was held is released when it moves inward faster than this [unit/s]. Rounding alone
@@ -32,7 +35,6 @@ const RELEASE: f64 = 1e-7;
 #[derive(Debug)]
 pub(crate) struct Nearest {
     recursion: Recursion,
-    period: f64,
     /// The equality tasks, and the sets below the first of them, in list order.
     lower: Vec<TaskId>,
     program: LevelProgram,
@@ -42,12 +44,16 @@ pub(crate) struct Nearest {
     low_active: ActiveSet,
     /// Multiplier of each side at each level in the last tick: how hard the set pushes back.
     multipliers: Vec<f64>,
-    /// Rows of the levels above the present one.
-    above: RowSpace,
-    asked: Vec<f64>,
+    /// What the levels above the present one have claimed.
+    above: Claims,
+    asked: Asked,
+    /// r: what the last level asked for and did not get.
+    unmet: Vec<f64>,
     returning: Vec<usize>,
     /// How fast each side would be left if it were let go [unit/s].
     crossings: Vec<f64>,
+    /// Directions that each lower level has lost.
+    lost: Vec<usize>,
     tasks: usize,
 }
 
@@ -73,17 +79,19 @@ impl Nearest {
             .map(|(id, _)| id)
             .filter(|&id| !stack.is_high_priority(id))
             .collect();
+        let period = 1.0 / settings.rate_hz;
         Self {
             recursion: settings.recursion,
-            period: 1.0 / settings.rate_hz,
             program: LevelProgram::new(stack, settings),
             held_before: Held::default(),
             held: Held::default(),
             low_active: ActiveSet::EMPTY,
             multipliers: alloc::vec![0.0; 2 * stack.len() * lower.len()],
+            lost: alloc::vec![0; lower.len()],
+            above: Claims::new(stack, &lower, max_rows, period),
             lower,
-            above: RowSpace::new(stack.dof(), max_rows),
-            asked: Vec::with_capacity(max_rows),
+            asked: Asked::new(max_rows, period),
+            unmet: Vec::with_capacity(max_rows),
             returning: Vec::with_capacity(2 * stack.len()),
             crossings: alloc::vec![0.0; 2 * stack.len()],
             tasks: stack.len(),
@@ -94,18 +102,24 @@ impl Nearest {
     pub(crate) fn choose(&mut self, tick: &mut NearestTick<'_>, velocity: &mut [f64]) -> ActiveSet {
         self.held_before = core::mem::take(&mut self.held);
         self.low_active = ActiveSet::EMPTY;
-        self.above.truncate(0);
+        self.above.clear();
         self.crossings.fill(0.0);
+        self.lost.fill(0);
         velocity.fill(0.0);
-        let mut level_above: Option<TaskId> = None;
+        let mut level_above: Option<usize> = None;
         for place in 0..self.lower.len() {
             let task = self.lower[place];
-            if !self.ask(tick, task, velocity) {
-                continue;
+            match self.asked.ask(tick, task, velocity, &self.held_before) {
+                Asks::Always => {}
+                Asks::At { side, leaving } => {
+                    self.held.insert(side);
+                    self.low_active.insert(task);
+                    self.crossings[side.number()] = leaving;
+                }
+                Asks::Nothing => continue,
             }
-            if let Some(previous) = level_above.replace(task) {
-                self.above
-                    .push_block(tick.evaluation.jacobian(tick.stack, previous));
+            if let Some(previous) = level_above.replace(place) {
+                self.claim(tick, previous);
             }
             self.descend(tick, place, velocity);
         }
@@ -118,119 +132,105 @@ impl Nearest {
         self.crossings[side.number()]
     }
 
+    /// The levels that have lost directions, and how many.
+    pub(crate) fn lost(&self) -> impl Iterator<Item = (TaskId, usize)> {
+        let levels = self.lower.iter().copied().zip(self.lost.iter().copied());
+        levels.filter(|(_, lost)| *lost > 0)
+    }
+
     /// Sides held by this tick's velocity.
     pub(crate) fn held(&self) -> Held {
         self.held
     }
 
-    /// What a level asks for, into `asked`. `false` for a low-priority set that asks for nothing; its
-    /// sides then bind the levels below.
-    fn ask(&mut self, tick: &mut NearestTick<'_>, task: TaskId, velocity: &[f64]) -> bool {
-        self.asked.clear();
-        match tick.stack[task].goal() {
-            Goal::Equality {
-                desired_rate, gain, ..
-            } => {
-                let errors = tick.evaluation.errors().of(task);
-                let drifts = tick.evaluation.drifts().of(task);
-                let components = errors.iter().zip(desired_rate).zip(drifts);
-                self.asked
-                    .extend(components.map(|((error, rate), drift)| rate + gain * error - drift));
-                true
-            }
-            Goal::Set { interval, gain, .. } => {
-                let (interval, gain) = (*interval, gain.unwrap_or(0.0));
-                let sigma = tick.evaluation.scalar(task);
-                let rate = dot(tick.evaluation.jacobian(tick.stack, task), velocity);
-                for side in Side::both(task) {
-                    let inside = side.inside(&interval, sigma);
-                    let bound_rate = tick.borders.bound_rate(side);
-                    let approaching = side.inward(bound_rate - tick.evaluation.drift(task));
-                    let (rest, back) = if inside < 0.0 {
-                        (0.0, -gain * inside)
-                    } else {
-                        (-inside / self.period, 0.0)
-                    };
-                    let kept = approaching + rest;
-                    let asked = kept + back;
-                    // Not released as soon as the others cease to carry it out: they may do so by turns.
-                    let needed = if self.held_before.contains(side) {
-                        asked + RELEASE
-                    } else {
-                        kept
-                    };
-                    let rate = side.inward(rate);
-                    if rate < needed {
-                        self.held.insert(side);
-                        self.low_active.insert(task);
-                        self.asked.push(side.inward(asked));
-                        self.crossings[side.number()] = (kept - rate).max(0.0);
-                        return true;
-                    }
-                    if kept > f64::NEG_INFINITY {
-                        tick.barrier
-                            .push(tick.stack, tick.evaluation, side, kept.min(rate));
-                    }
-                }
-                false
-            }
-        }
-    }
-
     /// One level further down: fits the velocity to what the level asks. Where the program has no
     /// answer, the velocity of the levels above stands.
     fn descend(&mut self, tick: &mut NearestTick<'_>, place: usize, velocity: &mut [f64]) {
-        let task = self.lower[place];
-        let counted_on = self.held_before.union(&self.held);
-        let push_back = self.push_back(tick, place);
-        let level = Level {
-            jacobian: tick.evaluation.jacobian(tick.stack, task),
-            asked: &self.asked,
-            from: velocity,
-            above: &self.above,
-            sides: &tick.barrier.sides,
-            bounds: &tick.barrier.bounds,
-            push_back,
-        };
-        let mut solution = self.program.solve(&level, &counted_on, &[], tick.pivots);
-        if solution == Solution::Optimal && self.recursion == Recursion::SicilianoSlotine {
-            // The damping counts on held sides, and by that may be what makes one seem to move inward.
-            // It is released only if it also does when the damping does not count on it.
-            let remaining = still_held(&level, &self.program, &counted_on);
-            if remaining != counted_on {
-                solution = self.program.solve(&level, &remaining, &[], tick.pivots);
-                self.returning.clear();
-                let returns = |side| counted_on.contains(side) && !remaining.contains(side);
-                let binding = self.program.binding().map(|(i, _)| i);
-                self.returning
-                    .extend(binding.filter(|&i| returns(level.sides.get(i))));
-                if solution == Solution::Optimal && !self.returning.is_empty() {
-                    solution =
-                        self.program
-                            .solve(&level, &counted_on, &self.returning, tick.pivots);
-                }
-            }
+        let mut solution = self.solve(tick, place, velocity);
+        if solution == Solution::Optimal && !tick.barrier.covers(self.program.velocity()) {
+            tick.barrier.gather_far(tick.stack, tick.evaluation);
+            solution = self.solve(tick, place, velocity);
         }
         if solution == Solution::Optimal {
             velocity.copy_from_slice(self.program.velocity());
             self.remember(place, &tick.barrier.sides);
+            self.lost[place] = self.program.lost();
         }
+        let jacobian = tick.evaluation.known_jacobian(self.lower[place]);
+        let met = jacobian
+            .chunks_exact(velocity.len())
+            .map(|row| dot(row, velocity));
+        self.unmet.clear();
+        self.unmet.extend(
+            self.asked
+                .rates()
+                .iter()
+                .zip(met)
+                .map(|(asked, met)| asked - met),
+        );
     }
 
-    /// Σ μ c over the sides, with the multipliers of the last tick.
-    fn push_back(&self, tick: &NearestTick<'_>, place: usize) -> f64 {
+    /// The program of a level, after `from`, the velocity of the levels above.
+    fn solve(&mut self, tick: &mut NearestTick<'_>, place: usize, from: &[f64]) -> Solution {
+        let task = self.lower[place];
+        tick.evaluation.jacobian(tick.stack, task);
+        let (evaluation, barrier) = (&*tick.evaluation, &*tick.barrier);
         let multipliers = &self.multipliers[place * 2 * self.tasks..];
-        let pushes = tick
-            .barrier
-            .iter()
-            .map(|(side, _, _)| match multipliers[side.number()] {
-                0.0 => 0.0,
-                multiplier => {
-                    let sigma = tick.evaluation.scalar(side.task);
-                    multiplier.abs() * tick.stack[side.task].task().bend(sigma)
-                }
-            });
-        pushes.sum()
+        let counting_on = |held: &Held| Level {
+            jacobian: evaluation.known_jacobian(task),
+            asked: self.asked.rates(),
+            from,
+            above: &self.above,
+            sides: &barrier.sides,
+            bounds: &barrier.bounds,
+            push_back: push_back(tick.stack, evaluation, barrier, held, multipliers),
+            damping: tick.stack[task].damping(),
+        };
+        let all = self.held_before.union(&self.held);
+        let level = counting_on(&all);
+        let solution = self.program.solve(&level, &all, &[], tick.pivots);
+        if solution != Solution::Optimal || self.recursion == Recursion::Chiaverini {
+            return solution;
+        }
+        // The damping counts on held sides, and by that may be what makes one seem to move inward.
+        // It is released only if it also does when the damping does not count on it.
+        let remaining = still_held(&level, &self.program, &all);
+        if remaining == all {
+            return solution;
+        }
+        let without = counting_on(&remaining);
+        let solution = self.program.solve(&without, &remaining, &[], tick.pivots);
+        let binding = self.program.binding().map(|(i, _)| i);
+        self.returning.clear();
+        self.returning
+            .extend(binding.filter(|&i| all.contains(level.sides.get(i))));
+        let returns = |&i: &usize| !remaining.contains(level.sides.get(i));
+        if solution != Solution::Optimal || !self.returning.iter().any(returns) {
+            return solution;
+        }
+        self.program
+            .solve(&level, &all, &self.returning, tick.pivots)
+    }
+
+    /// A level that has had its turn claims its motions from those below.
+    fn claim(&mut self, tick: &NearestTick<'_>, place: usize) {
+        let task = self.lower[place];
+        let turn = Turn {
+            task,
+            jacobian: tick.evaluation.known_jacobian(task),
+            unmet: &self.unmet,
+        };
+        if self.recursion == Recursion::SicilianoSlotine {
+            let multipliers = &self.multipliers[place * 2 * self.tasks..];
+            self.above.claim_rest(
+                tick.stack,
+                tick.evaluation.kinematics(),
+                &turn,
+                &tick.barrier.sides,
+                |side| multipliers[side.number()],
+            );
+        }
+        self.above.claim(&turn);
     }
 
     /// Which sides bind, and how hard.
@@ -256,6 +256,23 @@ impl Nearest {
             }
         }
     }
+}
+
+/// Σ μ c over the sides held, with the multipliers of the last tick.
+fn push_back(
+    stack: &Stack,
+    evaluation: &Evaluation,
+    barrier: &Barrier,
+    held: &Held,
+    multipliers: &[f64],
+) -> f64 {
+    let pushing = |side: &Side| multipliers[side.number()] != 0.0 && held.contains(*side);
+    let sides = barrier.sides.iter().map(|(side, _)| side);
+    let pushes = sides.filter(pushing).map(|side| {
+        let bend = stack[side.task].task().bend(evaluation.scalar(side.task));
+        multipliers[side.number()].abs() * bend
+    });
+    pushes.sum()
 }
 
 /// The sides counted on that the solution does not release.

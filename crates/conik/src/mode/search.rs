@@ -19,6 +19,7 @@ use alloc::vec::Vec;
 
 use crate::active::ActiveSet;
 use crate::border::Borders;
+use crate::cone::Interval;
 use crate::evaluation::Evaluation;
 use crate::hierarchy::Hierarchy;
 use crate::linalg::dot;
@@ -42,8 +43,8 @@ pub(crate) struct ModeSearch {
     active: ActiveSet,
     /// Sets that the rule allows to be active this tick, in list order.
     candidates: Vec<TaskId>,
-    /// Sets at or outside their border this tick.
-    at_border: Vec<TaskId>,
+    /// Sets at or outside their border this tick, with the rates J q̇ that their cones allow.
+    at_border: Vec<(TaskId, Interval)>,
     /// How fast each task was left in the last mode that was refused for it [unit/s].
     leaving: Vec<f64>,
     evaluated: usize,
@@ -61,6 +62,9 @@ impl Tick<'_> {
     /// J q̇ of a frozen set: zero, but for a bound or a task that moves by itself, and for a set that
     /// recovers from outside.
     fn frozen_rate(&self, task: TaskId) -> f64 {
+        if self.borders.are_at_ease() {
+            return 0.0;
+        }
         let sigma = self.evaluation.scalar(task);
         let border = self.borders.sides_at(task, sigma).next();
         let bound_rate = border.map_or(0.0, |side| {
@@ -114,6 +118,11 @@ impl ModeSearch {
         self.leaving[task.index()]
     }
 
+    /// The levels that had lost directions, and how many.
+    pub(crate) fn lost(&self) -> impl Iterator<Item = (TaskId, usize)> {
+        self.hierarchy.lost()
+    }
+
     /// How many modes the last search computed a velocity of.
     pub(crate) fn evaluated(&self) -> usize {
         self.evaluated
@@ -153,9 +162,15 @@ impl ModeSearch {
         self.candidates.clear();
         self.at_border.clear();
         for &task in &self.sets {
-            let at_border = borders.is_at_border(task, evaluation.scalar(task));
+            let cone = borders.tangent_cone(task, evaluation.scalar(task));
+            let at_border = cone.min.is_finite() || cone.max.is_finite();
             if at_border {
-                self.at_border.push(task);
+                let drift = evaluation.drift(task);
+                let allowed = Interval {
+                    min: cone.min - drift,
+                    max: cone.max - drift,
+                };
+                self.at_border.push((task, allowed));
                 self.leaving[task.index()] = 0.0;
             }
             if at_border || self.rule == ModeRule::Paper {
@@ -201,19 +216,17 @@ impl ModeSearch {
         self.evaluated += 1;
         self.hierarchy
             .velocity(tick.stack, tick.evaluation, &self.active, tick.velocity);
-        self.at_border
-            .iter()
-            .filter(|&&task| !self.active.contains(task))
-            .all(|&task| {
-                let rate = dot(tick.evaluation.jacobian(tick.stack, task), tick.velocity);
+        self.at_border.iter().all(|(task, allowed)| {
+            self.active.contains(*task) || {
+                let rate = dot(tick.evaluation.jacobian(tick.stack, *task), tick.velocity);
                 let rate = if rate.abs() <= STILL { 0.0 } else { rate };
-                let rate = rate + tick.evaluation.drift(task);
-                let sigma = tick.evaluation.scalar(task);
-                let stays = tick.borders.tangent_cone_contains(task, rate, sigma);
+                // True for NaN, which the controller reports.
+                let stays = !(rate < allowed.min || rate > allowed.max);
                 if !stays {
-                    self.leaving[task.index()] = rate;
+                    self.leaving[task.index()] = rate + tick.evaluation.drift(*task);
                 }
                 stays
-            })
+            }
+        })
     }
 }

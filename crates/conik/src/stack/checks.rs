@@ -55,6 +55,9 @@ pub enum StackErrorReason {
     /// A speed of recovery that is not a positive number.
     #[error("the speed of recovery must be a positive number [unit/s], not {0}")]
     BadSpeed(f64),
+    /// A damping that is negative or not finite.
+    #[error("the damping must be a finite number, at least 0 [unit/rad], not {0}")]
+    BadDamping(f64),
     /// A low-priority set without a gain.
     #[error("a set-based task below an equality task needs a gain [1/s]")]
     MissingGain,

@@ -9,6 +9,7 @@ use alloc::vec::Vec;
 
 use crate::active::{ActiveSet, MAX_TASKS};
 use crate::cone::Interval;
+use crate::damping::Damping;
 use crate::robot::Robot;
 use crate::task::{JointPosition, Task};
 use crate::task_id::TaskId;
@@ -57,6 +58,7 @@ pub struct Level {
     name: String,
     task: Box<dyn Task>,
     goal: Goal,
+    damping: Damping,
     /// Tasks that may not be active together with this one.
     excluded: ActiveSet,
 }
@@ -84,6 +86,11 @@ impl Level {
             Goal::Set { interval, .. } => Some(interval),
             Goal::Equality { .. } => None,
         }
+    }
+
+    /// How it is damped near singularities, where it is a level of its own.
+    pub fn damping(&self) -> Damping {
+        self.damping
     }
 
     /// Tasks that may not be active together with this one.
@@ -126,6 +133,7 @@ impl Stack {
                         gain: None,
                         recovery: None,
                     },
+                    damping: Damping::Automatic,
                     excluded: ActiveSet::EMPTY,
                 });
             }
@@ -230,6 +238,7 @@ impl Stack {
             name: name.to_string(),
             task,
             goal,
+            damping: Damping::Automatic,
             excluded: ActiveSet::EMPTY,
         });
         Ok(TaskId::new(self.levels.len() - 1))

@@ -5,6 +5,7 @@ use core::any::Any;
 use super::checks::{check_desired, check_rates, check_set, check_speed, error};
 use super::{BoundRates, Goal, Stack, StackError, StackErrorReason};
 use crate::cone::Interval;
+use crate::damping::Damping;
 use crate::task::Task;
 use crate::task_id::TaskId;
 
@@ -86,6 +87,21 @@ impl Setpoints<'_> {
                 Goal::Equality { .. } => Err(StackErrorReason::WrongKind),
             }
         })
+    }
+
+    /// Sets how a level is damped near singularities. It has no effect on a high-priority set, which is
+    /// no level of its own.
+    pub fn set_damping(&mut self, task: TaskId, damping: Damping) -> Result<(), StackError> {
+        let level = &mut self.stack.levels[task.index()];
+        match damping {
+            Damping::Fixed(lambda) if !(lambda >= 0.0 && lambda.is_finite()) => {
+                Err(error(&level.name, StackErrorReason::BadDamping(lambda)))
+            }
+            _ => {
+                level.damping = damping;
+                Ok(())
+            }
+        }
     }
 
     /// A task as its own type, to change its parameters; `None` if it is of another type.

@@ -62,6 +62,15 @@ impl Task for Coordinate {
         kinematics.point_row(self.frame, self.axis.direction(), jacobian.row(0));
     }
 
+    fn add_curvature(&self, kinematics: &Kinematics, weights: &[f64], hessian: &mut [f64]) {
+        let along = self.axis.direction() * weights[0];
+        kinematics.add_point_curvature(self.frame, along, hessian);
+    }
+
+    fn steepness(&self, reach: f64) -> f64 {
+        reach
+    }
+
     fn unit(&self) -> &'static str {
         "m"
     }

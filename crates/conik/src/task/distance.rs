@@ -1,7 +1,8 @@
 //! Distance to a point: σ = √((p_o − p)ᵀ(p_o − p)), Eqs. (9) and (10): collision avoidance.
 
-use super::{DENOMINATOR_EPSILON, JacobianMut, Task, check_frame};
+use super::{DENOMINATOR_EPSILON, JacobianMut, Task, add_outer, check_frame};
 use crate::geometry::Vec3;
+use crate::joints::JointVec;
 use crate::kinematics::{Frame, Kinematics};
 
 /// Distance of the origin of a frame to a point of the base frame [m].
@@ -74,6 +75,23 @@ impl Task for Distance {
         kinematics.point_row(self.frame, direction, jacobian.row(0));
     }
 
+    /// ∇²σ = Σₖ nₖ ∇²vₖ + Jᵀ (I − n nᵀ) J / σ for σ = |v|, n = v / σ.
+    fn add_curvature(&self, kinematics: &Kinematics, weights: &[f64], hessian: &mut [f64]) {
+        let away = self.away_from_point(kinematics);
+        let sigma = away.norm() + DENOMINATOR_EPSILON;
+        let along = away * (1.0 / sigma);
+        kinematics.add_point_curvature(self.frame, along * weights[0], hessian);
+        let mut add_bend = |direction: Vec3, weight: f64| {
+            let mut row = JointVec::zeros(kinematics.dof());
+            kinematics.point_row(self.frame, direction, &mut row);
+            add_outer(hessian, weight / sigma, &row);
+        };
+        for axis in [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]] {
+            add_bend(axis.into(), weights[0]);
+        }
+        add_bend(along, -weights[0]);
+    }
+
     fn is_moving(&self) -> bool {
         self.velocity != Vec3::ZERO
     }
@@ -84,6 +102,10 @@ impl Task for Distance {
 
     fn bend(&self, sigma: f64) -> f64 {
         1.0 / (sigma + DENOMINATOR_EPSILON)
+    }
+
+    fn steepness(&self, reach: f64) -> f64 {
+        reach
     }
 
     fn unit(&self) -> &'static str {

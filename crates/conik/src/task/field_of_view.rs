@@ -1,7 +1,8 @@
 //! Field of view: σ = √((a_des − a)ᵀ(a_des − a)), a the z axis of a frame, Eqs. (13) to (17).
 
-use super::{DENOMINATOR_EPSILON, JacobianMut, Task, check_frame};
+use super::{DENOMINATOR_EPSILON, JacobianMut, Task, add_outer, check_frame};
 use crate::geometry::Vec3;
+use crate::joints::JointVec;
 use crate::kinematics::{Frame, Kinematics};
 
 /// Norm of the difference between a desired direction and the z axis of a frame [-]:
@@ -80,6 +81,23 @@ impl Task for FieldOfView {
         kinematics.axis_row(self.frame, direction, jacobian.row(0));
     }
 
+    /// ∇²σ = Σₖ nₖ ∇²vₖ + Jᵀ (I − n nᵀ) J / σ for σ = |v|, n = v / σ.
+    fn add_curvature(&self, kinematics: &Kinematics, weights: &[f64], hessian: &mut [f64]) {
+        let away = self.away_from_desired(kinematics);
+        let sigma = away.norm() + DENOMINATOR_EPSILON;
+        let along = away * (1.0 / sigma);
+        kinematics.add_axis_curvature(self.frame, along * weights[0], hessian);
+        let mut add_bend = |direction: Vec3, weight: f64| {
+            let mut row = JointVec::zeros(kinematics.dof());
+            kinematics.axis_row(self.frame, direction, &mut row);
+            add_outer(hessian, weight / sigma, &row);
+        };
+        for axis in [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]] {
+            add_bend(axis.into(), weights[0]);
+        }
+        add_bend(along, -weights[0]);
+    }
+
     fn is_moving(&self) -> bool {
         self.angular_velocity != Vec3::ZERO
     }
@@ -91,6 +109,10 @@ impl Task for FieldOfView {
 
     fn bend(&self, sigma: f64) -> f64 {
         1.0 / (sigma + DENOMINATOR_EPSILON)
+    }
+
+    fn steepness(&self, _reach: f64) -> f64 {
+        1.0
     }
 
     fn unit(&self) -> &'static str {

@@ -37,6 +37,10 @@ impl Task for JointPosition {
         0.0
     }
 
+    fn steepness(&self, _reach: f64) -> f64 {
+        1.0
+    }
+
     fn unit(&self) -> &'static str {
         "rad"
     }

@@ -62,6 +62,22 @@ pub trait Task: Any + Debug + Send {
         1.0
     }
 
+    /// Adds Σᵢ wᵢ ∇²σᵢ(q), the second derivatives of the components, each with its weight, to `hessian`: one
+    /// row of one entry per joint for each joint.
+    ///
+    /// Where a level cannot have what it asks, tasks below it keep to motions that do not turn against
+    /// it what it is left with; those follow from second derivatives. A task that adds nothing, as
+    /// the default does, is taken to be linear.
+    fn add_curvature(&self, _kinematics: &Kinematics, _weights: &[f64], _hessian: &mut [f64]) {}
+
+    /// A bound on how fast the value can change [task's unit/rad]: |J q̇| ≤ steepness · Σ|q̇ᵢ| in every
+    /// configuration. `reach` [m] is the most that a point of the robot can be away from a joint that
+    /// moves it. A set that is so far inside that it cannot be left within a tick costs no Jacobian;
+    /// infinity, of which nothing follows, if no bound is known.
+    fn steepness(&self, _reach: f64) -> f64 {
+        f64::INFINITY
+    }
+
     /// Unit of the value, for people: `m`, `rad`, `-`.
     fn unit(&self) -> &'static str;
 
@@ -104,6 +120,15 @@ impl<'a> JacobianMut<'a> {
             rest = below;
             row
         })
+    }
+}
+
+/// Adds weight · (row ⊗ row) to a square matrix of the size of `row`.
+fn add_outer(hessian: &mut [f64], weight: f64, row: &[f64]) {
+    for (line, a) in hessian.chunks_exact_mut(row.len()).zip(row) {
+        for (entry, b) in line.iter_mut().zip(row) {
+            *entry += weight * a * b;
+        }
     }
 }
 

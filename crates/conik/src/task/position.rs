@@ -1,6 +1,7 @@
 //! Position of a frame's origin: σ = p(q) ∈ ℝ³, Eqs. (4) and (5).
 
 use super::{JacobianMut, Task, check_frame};
+use crate::geometry::Vec3;
 use crate::kinematics::{Frame, Kinematics};
 
 /// Position of the origin of a frame in the base frame [m], dimension 3.
@@ -34,6 +35,11 @@ impl Task for Position {
     #[inline]
     fn jacobian(&self, kinematics: &Kinematics, jacobian: &mut JacobianMut<'_>) {
         kinematics.point_rows(self.frame, jacobian.rows());
+    }
+
+    fn add_curvature(&self, kinematics: &Kinematics, weights: &[f64], hessian: &mut [f64]) {
+        let along = Vec3::new(weights[0], weights[1], weights[2]);
+        kinematics.add_point_curvature(self.frame, along, hessian);
     }
 
     fn unit(&self) -> &'static str {

@@ -15,6 +15,8 @@ use super::{Goal, Task, high_priority};
 /// l₀ and ε of the damping.
 const STRICT: f64 = 1e-3;
 const SINGULAR: f64 = 0.2;
+/// Least λ² of a level below others.
+const LOWER: f64 = 0.04;
 /// What sets are held inside their bounds with border `land` [task's unit].
 const MARGIN: f64 = 1e-7;
 /// A held side moves inward if it is faster than this [unit/s].
@@ -109,7 +111,9 @@ impl Level<'_> {
             let on_taken = taken.transpose() * &taken;
             let on_held = &on_taken - above.transpose() * &above;
             let usable = self.jacobian * (DMatrix::identity(dof, dof) - &on_taken);
-            let weight = damping(&usable, &on_held, self.scene.period * self.asked.norm());
+            let least = if self.above.nrows() > 0 { LOWER } else { 0.0 };
+            let lambda_squared = (self.scene.period * self.asked.norm()).max(least);
+            let weight = damping(&usable, &on_held, lambda_squared);
             let rows = self.jacobian * &free;
             let hessian = rows.transpose() * &rows + free.transpose() * weight * &free;
             let gap = &self.asked - self.jacobian * self.from;
@@ -132,6 +136,16 @@ impl Level<'_> {
             x: self.from + free * answer.x,
             ..answer
         })
+    }
+
+    /// Whether the level has lost a direction and asks for something in it: the levels below then let it
+    /// rest, by the second derivatives of its task, which are not in this definition.
+    fn rests(&self, answer: &Answer) -> bool {
+        let dof = self.from.len();
+        let taken = row_space(&stacked(self.above, &self.rows_of(&answer.binding)));
+        let usable = self.jacobian * (DMatrix::identity(dof, dof) - taken.transpose() * &taken);
+        let least = (&usable * usable.transpose()).symmetric_eigenvalues().min();
+        least < SINGULAR * SINGULAR * (1.0 + 1e-6)
     }
 
     fn rows_of(&self, sides: &[usize]) -> DMatrix<f64> {
@@ -173,9 +187,9 @@ impl Level<'_> {
             .binding
             .iter()
             .copied()
-            .filter(|i| released.contains(i))
+            .filter(|i| counted_on.contains(i))
             .collect();
-        if returning.is_empty() {
+        if !returning.iter().any(|i| released.contains(i)) {
             return Ok(second);
         }
         let third = self.solve(&counted_on, &returning)?;
@@ -235,6 +249,7 @@ impl Scene<'_> {
         let mut above = DMatrix::zeros(0, self.arm.dof());
         let mut active = 0;
         let mut is_unclear = false;
+        let mut one_rests = false;
         for (i, task) in self.tasks.iter().enumerate().skip(first_equality) {
             let (sigma, jacobian) = &measured[i];
             let asked = match &task.goal {
@@ -284,8 +299,11 @@ impl Scene<'_> {
                 above: &above,
                 sides: &sides,
             };
+            is_unclear |= one_rests;
             match level.descend(&mut is_unclear) {
                 Ok(answer) => {
+                    one_rests |=
+                        self.recursion == Recursion::SicilianoSlotine && level.rests(&answer);
                     qd = answer.x;
                     for i in answer.binding {
                         sides[i].is_held = true;

@@ -2,8 +2,8 @@
 //! code with the crate.
 //!
 //! An interior-point answer is as exact as its duality gap, and a gap of 1e-12 leaves 1e-6 in x. So
-//! the rows that bind are read off it and solved for as equations; that answer is taken where it keeps
-//! every row.
+//! the rows that bind are read off it and solved for as equations; where that answer does not keep every
+//! row, there is none.
 
 use clarabel::algebra::CscMatrix;
 use clarabel::solver::{DefaultSettings, DefaultSolver, IPSolver, NonnegativeConeT, SolverStatus};
@@ -122,8 +122,10 @@ fn nearest(
     let exact = shortest(&rows, bounds, &binding);
     let worst = (bounds - &rows * &exact).max();
     let drift = (&exact - &y).norm() / (1.0 + y.norm());
-    let keeps = worst <= SAME.0 && drift <= SAME.1;
-    Ok((if keeps { exact } else { y }, binding, is_unclear))
+    if worst > SAME.0 || drift > SAME.1 {
+        return Err(Failure::Undecided);
+    }
+    Ok((exact, binding, is_unclear))
 }
 
 /// The interior point of min ½ |y|² subject to A y ≥ b, and the rows whose multiplier exceeds their slack.
