@@ -36,7 +36,10 @@ pub fn lines<'a>(summary: &Summary, monitors: &'a Monitors) -> Vec<Line<'a>> {
             "rank lost",
             "A task lost directions to a singularity, or to what stands above it.",
             &monitors.rank_lost,
-            |worst, _| format!("{} direction(s)", number(worst, 3)),
+            |worst, _| match worst {
+                1.0 => "1 direction".to_owned(),
+                worst => format!("{} directions", number(worst, 3)),
+            },
         ),
         (
             "frozen set moved",
