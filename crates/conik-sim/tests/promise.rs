@@ -183,6 +183,30 @@ fn ball_that_moves_is_avoided_where_the_arm_is_fast_enough_and_else_announced() 
     );
 }
 
+/// The tool starts 0.05 m inside a ball that is at rest.
+#[test]
+fn set_that_starts_outside_is_entered_at_the_speed_of_recovery() {
+    let mut scenario = crossing(0.2);
+    let TaskKind::Distance { point_m, motion } = &mut scenario.tasks[0].kind else {
+        panic!("a ball");
+    };
+    point_m[1] += 0.25;
+    *motion = None;
+    scenario.control.duration_s = 2.0;
+    let entered = |recovery: Option<f64>| {
+        let mut scenario = scenario.clone();
+        if let GoalConfig::Set { recovery_per_s, .. } = &mut scenario.tasks[0].goal {
+            *recovery_per_s = recovery;
+        }
+        let (_, summary) = run_of(scenario);
+        assert_eq!(summary.faults(), [""; 0]);
+        summary.tasks["obstacle_a"].entered_set_s
+    };
+    assert_eq!(entered(None), None, "nothing drives it in");
+    let at_s = entered(Some(0.05)).expect("it is driven in");
+    assert!((at_s - 1.0).abs() < 0.05, "0.05 m at 0.05 m/s: {at_s} s");
+}
+
 #[test]
 fn summary_counts_how_often_each_set_was_held() {
     let (records, summary) = run_of(example2());
