@@ -27,6 +27,12 @@ impl Controller {
             Rule::Search(search) => add_lost(&mut self.step, search.lost()),
             Rule::Nearest(nearest) => add_lost(&mut self.step, nearest.lost()),
         }
+        if self.step.acceleration_exceeded.is_some() {
+            let qdd = self.step.qdd;
+            for exceeded in self.limits.exceeded(&qdd) {
+                self.step.add_reason(Reason::AccelerationExceeded(exceeded));
+            }
+        }
         self.step.explain_motion();
         if self.step.no_mode {
             self.step.add_reason(Reason::NoMode);

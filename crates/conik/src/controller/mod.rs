@@ -193,11 +193,14 @@ impl Controller {
 
         let was_active = self.step.active;
         let step = &mut self.step;
-        step.acceleration_exceeded = self.limits.exceeded(&self.qd, &step.qd);
         let changes = step.qdd.iter_mut().zip(step.qd.iter().zip(self.qd.iter()));
         for (qdd, (before, now)) in changes {
             *qdd = (now - before) * self.settings.rate_hz;
         }
+        step.acceleration_exceeded = self
+            .limits
+            .exceeded(&step.qdd)
+            .max_by(|a, b| a.times.total_cmp(&b.times));
         copy(&mut step.q_ref, &self.q_ref);
         copy(&mut step.qd, &self.qd);
         step.speed_limit = speed_limit;
