@@ -16,7 +16,7 @@ use crate::border::{Borders, MARGIN};
 use crate::evaluation::Evaluation;
 use crate::real::sqrt;
 use crate::settings::{Border, Settings};
-use crate::sides::{Side, Sides, landing_rate};
+use crate::sides::{Held, Side, Sides, landing_rate};
 use crate::stack::{Goal, Stack};
 
 /// Share of the joints' acceleration that braking in front of a bound counts on. The rest is for what
@@ -34,6 +34,8 @@ pub(crate) struct Barrier {
     /// Sides, by index, that are to move inward at a rate [unit/s], as far as all the others allow:
     /// the recovery of sets that are outside.
     pub(crate) wishes: Vec<(usize, f64)>,
+    /// Sides in front of which the arm brakes: their b keeps them away from their margin.
+    pub(crate) slowed: Held,
     /// Greatest acceleration of each joint, where braking is to be counted on.
     braking: Option<Vec<f64>>,
     border: Border,
@@ -50,6 +52,7 @@ impl Barrier {
             sides: Sides::new(stack),
             bounds: Vec::with_capacity(2 * stack.len()),
             wishes: Vec::with_capacity(2 * stack.len()),
+            slowed: Held::default(),
             braking,
             border: settings.border,
             period: 1.0 / settings.rate_hz,
@@ -63,6 +66,7 @@ impl Barrier {
         self.sides.clear();
         self.bounds.clear();
         self.wishes.clear();
+        self.slowed = Held::default();
         self.far.clear();
         self.horizon = f64::INFINITY;
     }
@@ -91,7 +95,11 @@ impl Barrier {
                     continue;
                 }
                 self.sides.push(stack, evaluation, side);
-                self.bounds.push(self.braked(bound, inside) + approaching);
+                let braked = self.braked(bound, inside);
+                if braked > bound {
+                    self.slowed.insert(side);
+                }
+                self.bounds.push(braked + approaching);
                 if let (Some(speed), true) = (*recovery, outside > 0.0) {
                     let rate = speed.min(landing_rate(-outside, self.period)) + approaching;
                     self.wishes.push((self.bounds.len() - 1, rate));

@@ -292,10 +292,11 @@ impl Controller {
             }
             Rule::Nearest(nearest) => nearest.held(),
         };
-        // What moves in from outside is not to be held where it was.
+        // What moves in from outside is not to be held where it was, nor what is still approached.
         for &(side, _) in &self.barrier.wishes {
             held.remove(self.barrier.sides.get(side));
         }
+        let held = held.without(&self.barrier.slowed);
         let mut approach = Approach {
             stack: &self.stack,
             here: &mut self.here,
