@@ -5,6 +5,7 @@
 //! leave.
 
 mod claims;
+mod frozen;
 mod level;
 mod nearest;
 mod order;
