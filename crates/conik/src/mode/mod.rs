@@ -6,6 +6,7 @@
 
 mod asked;
 mod claims;
+mod frozen;
 mod level;
 mod nearest;
 mod order;
