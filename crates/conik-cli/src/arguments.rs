@@ -68,6 +68,10 @@ pub struct RunArguments {
     /// Where to write the log, the summary and the report [default: `out/` and the name of the scenario file]
     #[arg(long, value_name = "DIR", value_hint = ValueHint::DirPath)]
     pub out: Option<PathBuf>,
+    /// After the run, say in plain words what was decided at this time of the run, and why; may be
+    /// given more than once, and is printed under --quiet too
+    #[arg(long, value_name = "SECONDS", allow_negative_numbers = true)]
+    pub explain: Vec<f64>,
     /// No progress line and no summary; errors are printed all the same
     #[arg(long, short)]
     pub quiet: bool,

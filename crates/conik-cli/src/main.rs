@@ -2,8 +2,10 @@
 
 mod arguments;
 mod commands;
+mod explain;
 mod failure;
 mod layout;
+mod monitors;
 mod overrides;
 mod present;
 mod progress;

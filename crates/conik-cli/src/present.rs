@@ -2,10 +2,12 @@
 
 use conik_cli::report::units::{limit, optional, quantity};
 use conik_sim::experiment::Experiment;
+use conik_sim::joint_limits::LIMIT;
 use conik_sim::scenario::{Border, Choice, Control, GoalConfig, Scenario, TaskConfig};
-use conik_sim::summary::{Landing, Outcome, Property, Summary};
+use conik_sim::summary::{Landing, Outcome, Property, Summary, TaskSummary};
 
 use crate::layout::{counted, table, wrapped};
+use crate::monitors;
 
 /// Waypoints beyond this number are counted, not listed.
 const MOST_WAYPOINTS_LISTED: usize = 8;
@@ -47,6 +49,7 @@ pub fn summary(summary: &Summary, experiment: &Experiment) -> String {
         tasks(summary),
         properties(summary),
         limits(summary, experiment),
+        monitors::lines(summary),
         machine(summary),
     ]
     .into_iter()
@@ -96,12 +99,19 @@ fn waypoints(summary: &Summary) -> String {
         .collect()
 }
 
-/// One line per task, in the order of priority.
+/// One line per task, in the order of priority; of the joints' position limits only those that bound.
 fn tasks(summary: &Summary) -> String {
     let mut rows =
         vec![["task", "goal", "result", "first inside", "active for"].map(str::to_owned)];
-    for task in &summary.settings.scenario.tasks {
-        rows.push(task_row(summary, task));
+    let is_idle = |task: &TaskConfig| {
+        let result = summary.tasks.get(&task.name);
+        let did = |result: &TaskSummary| (result.worst_violation, result.active_s);
+        task.name.starts_with(LIMIT) && result.map(did) == Some((Some(0.0), Some(0.0)))
+    };
+    for task in &summary.settings.scenario.all_tasks() {
+        if !is_idle(task) {
+            rows.push(task_row(summary, task));
+        }
     }
     table(&rows)
 }
@@ -209,11 +219,21 @@ fn properties(summary: &Summary) -> String {
                 "border `freeze` promises nothing between samples: such dips are of the order of \
                  one period's motion"
             }
+            Border::Land if was_announced(summary) => {
+                "border `land` promises 2 to 4. Each tick before had announced it: no velocity \
+                 within the limits kept every set"
+            }
             Border::Land => "border `land` promises 2 to 4: this is a fault",
         };
         text += &wrapped("  ", why);
     }
     text
+}
+
+/// Whether sets were left, and never without notice.
+fn was_announced(summary: &Summary) -> bool {
+    let seen = summary.monitors.as_ref();
+    seen.is_some_and(|seen| seen.went_outside.is_seen() && !seen.unannounced.is_seen())
 }
 
 fn worst(summary: &Summary, property: &Property) -> String {
@@ -227,12 +247,6 @@ fn worst(summary: &Summary, property: &Property) -> String {
 fn limits(summary: &Summary, experiment: &Experiment) -> String {
     let period = 1.0 / experiment.controller.settings().rate_hz;
     let mut text = String::new();
-    if summary.speed_limited_ticks > 0 {
-        text += &format!(
-            "  joint speed limits scaled the velocity for {:.3} s\n",
-            summary.speed_limited_ticks as f64 * period
-        );
-    }
     if summary.no_mode_ticks > 0 {
         text += &wrapped(
             "  ",
@@ -266,8 +280,9 @@ fn halvings(landing: &Landing, period: f64) -> String {
 fn machine(summary: &Summary) -> String {
     let time = &summary.step_time_us;
     let mut text = format!(
-        "  {}; a step took {:.2} µs (99 % below {:.2} µs, longest {:.0} µs)\n",
+        "  {}{}\n  a step took {:.2} µs (99 % below {:.2} µs, longest {:.0} µs)\n",
         counted(summary.modes.len() as u64 - 1, "mode change"),
+        monitors::most_changes(summary),
         time.median,
         time.p99,
         time.max

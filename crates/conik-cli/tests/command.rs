@@ -4,7 +4,9 @@ mod command {
     mod bad_input;
     mod default_rules;
     mod documents;
+    mod explain;
     mod gallery;
+    mod monitors;
     mod network;
     mod outputs;
     mod process;

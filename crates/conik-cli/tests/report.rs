@@ -138,3 +138,19 @@ fn a_log_cut_short_is_still_reported() {
     let page = fs::read_to_string(report::write(&dir).unwrap()).unwrap();
     assert!(page.contains("last line of the log was cut off"));
 }
+
+#[test]
+fn monitors_are_told_with_their_verdicts() {
+    let folder = Invention::default().write("monitors");
+    let page = fs::read_to_string(report::write(&folder).unwrap()).unwrap();
+    let page = page.replace('\u{a0}', " ");
+    let (_, section) = page.split_once("What else was watched").unwrap();
+    let row = |words: &str| section.lines().find(|line| line.contains(words)).unwrap();
+    let frozen = row("frozen though it was strictly inside");
+    for part in ["<td>seen</td>", "1 s", "0.0123", "1.5 s", "view"] {
+        assert!(frozen.contains(part), "{part}: {frozen}");
+    }
+    assert!(row("left without notice").contains("<td>not watched</td>"));
+    assert!(row("local minimum").contains("<td>never</td>"));
+    assert!(row("joint_1</th>").contains("0.72 s"));
+}

@@ -6,6 +6,8 @@ use conik::{
     TooManyJoints, Vec3, Waypoints,
 };
 
+use crate::joint_limits::limited_robot;
+use crate::mover::Mover;
 use crate::scenario::{
     Axis, Border, Control, GoalConfig, ModeRule, Recursion, Scenario, TaskConfig, TaskKind,
 };
@@ -21,6 +23,8 @@ pub struct Experiment {
     pub mode_order: ModeOrder,
     /// The position task that visits waypoints, and those.
     pub waypoints: Option<(TaskId, Waypoints)>,
+    /// The obstacles that move.
+    pub movers: Vec<Mover>,
     /// Joint positions at the start [rad].
     pub q0: JointVec,
     /// Index of the last tick: the run has one more tick than this.
@@ -53,11 +57,20 @@ pub enum ExperimentError {
 impl Experiment {
     /// Makes a scenario ready to run.
     pub fn new(scenario: &Scenario) -> Result<Self, ExperimentError> {
-        let robot = Robot::builtin(&scenario.robot.model)?;
+        let robot = limited_robot(&scenario.robot)?;
         let mut stack = Stack::new(&robot);
         let mut waypoints = None;
+        let mut movers = Vec::new();
         for task in &scenario.tasks {
             let id = add_task(&mut stack, task)?;
+            movers.extend(Mover::of(id, &task.kind));
+            if let GoalConfig::Set {
+                recovery_per_s: Some(speed),
+                ..
+            } = task.goal
+            {
+                stack.setpoints().set_recovery(id, Some(speed))?;
+            }
             if let GoalConfig::Waypoints {
                 waypoints_m,
                 acceptance_m,
@@ -83,6 +96,7 @@ impl Experiment {
             mode_order: ModeOrder::new(&stack),
             controller: Controller::new(&robot, stack, settings(&scenario.control))?,
             waypoints,
+            movers,
             q0: JointVec::from_slice(&scenario.robot.q0_rad)?,
             last_tick: scenario.control.last_tick(),
             robot,
@@ -95,6 +109,19 @@ impl Experiment {
     pub fn waypoint_count(&self) -> usize {
         let waypoints = self.waypoints.as_ref();
         waypoints.map_or(0, |(_, waypoints)| waypoints.points().len())
+    }
+
+    /// The control period [s].
+    pub fn period_s(&self) -> f64 {
+        1.0 / self.controller.settings().rate_hz
+    }
+
+    /// Tells the controller where what moves is at `t_s` [s], and how it moves on; before every tick.
+    pub fn move_world(&mut self, t_s: f64) {
+        let period_s = self.period_s();
+        for mover in &self.movers {
+            mover.tell(&mut self.controller.setpoints(), t_s, period_s);
+        }
     }
 }
 
@@ -138,7 +165,7 @@ fn add_task(stack: &mut Stack, config: &TaskConfig) -> Result<TaskId, Experiment
             };
             add(stack, config, Coordinate::of_tool(axis))
         }
-        TaskKind::Distance { point_m } => add(stack, config, Distance::of_tool_to(point_m)),
+        TaskKind::Distance { point_m, .. } => add(stack, config, Distance::of_tool_to(point_m)),
         TaskKind::FieldOfView { direction } => {
             add(stack, config, FieldOfView::of_tool_along(direction))
         }
@@ -169,6 +196,7 @@ fn add(stack: &mut Stack, config: &TaskConfig, task: impl Task) -> Result<TaskId
             min,
             max,
             gain_per_s,
+            ..
         } => {
             let set = Interval {
                 min: min.unwrap_or(f64::NEG_INFINITY),

@@ -7,10 +7,14 @@
 //!
 //! Nothing here knows which arm it drives or how a log is drawn.
 
+pub mod announced;
 pub mod arm;
 pub mod check;
 pub mod experiment;
+pub mod joint_limits;
 pub mod log;
+pub mod monitors;
+pub mod mover;
 pub mod promise;
 pub mod record;
 pub mod run;

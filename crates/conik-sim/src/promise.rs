@@ -3,22 +3,31 @@
 //! Border `freeze` promises nothing between samples. Border `land` promises the properties 2 to 4 of
 //! the paper's Section VI at every sample: a high-priority set is not left once it holds, and does
 //! not get worse before. Properties 1 and 5 depend on the scenario and are promised by nothing.
+//!
+//! Where points move, a set can be left because no velocity within the limits keeps it. The tick before
+//! announces that. It counts as broken all the same: what had to be kept was not, whoever is to
+//! blame, and whoever relies on the exit status wants to know; the message says that it was announced.
+//! What was *not* announced is broken besides, however small it is: that the next sample is inside, or
+//! that this tick says that it is not, is promised without a tolerance.
 
 use std::fmt;
 
 use crate::scenario::{Border, Choice};
-use crate::summary::{Outcome, Property, Summary};
+use crate::summary::{Outcome, Summary};
 
 /// A promise of the settings that a run did not keep.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BrokenPromise<'a> {
-    /// What was promised.
-    promise: &'static str,
-    /// What became of it.
-    property: &'a Property,
+    /// What was done that was promised not to be.
+    offence: &'static str,
+    /// How far it went [task's unit], and when that was [s].
+    worst: f64,
+    at_s: Option<f64>,
+    /// What is to be said besides.
+    remark: &'static str,
     task: &'a str,
     /// Unit of the task's value; empty where it has none.
-    unit: &'a str,
+    unit: &'static str,
     border: Border,
 }
 
@@ -27,24 +36,35 @@ impl fmt::Display for BrokenPromise<'_> {
         write!(
             f,
             "promise-broken: `{}` was {:.3e}{} {} at {} s; border `{}` promises that this does not \
-             happen",
+             happen{}",
             self.task,
-            self.property.worst,
+            self.worst,
             self.unit,
-            self.promise,
-            self.property.at_s.unwrap_or(0.0),
+            self.offence,
+            self.at_s.unwrap_or(0.0),
             self.border.name(),
+            self.remark,
         )
     }
 }
 
 impl Summary {
-    /// The promises that the run did not keep, in the order of the properties.
+    /// The promises that the run did not keep, in the order of the properties; then a sample outside
+    /// that was not announced.
     pub fn broken_promises(&self) -> Vec<BrokenPromise<'_>> {
         let border = self.settings.scenario.control.border;
         if border == Border::Freeze || self.modes.is_empty() {
             return vec![];
         }
+        let unannounced = self.monitors.as_ref().map(|seen| &seen.unannounced);
+        let unannounced = unannounced.filter(|seen| seen.is_seen());
+        let announced = self.monitors.as_ref().map(|seen| &seen.went_outside);
+        let remark = match announced.filter(|seen| seen.is_seen()) {
+            Some(_) if unannounced.is_none() => {
+                " (no velocity within the limits kept every set, as the tick before had announced)"
+            }
+            _ => "",
+        };
         let properties = &self.properties;
         let promised = [
             (
@@ -60,25 +80,42 @@ impl Summary {
                 "outside a set that had been entered",
             ),
         ];
-        promised
-            .into_iter()
-            .filter(|(property, _)| !property.holds)
-            .map(|(property, promise)| {
-                let task = property.task.as_deref().unwrap_or("?");
-                let unit = self.settings.units.get(task).map_or("", String::as_str);
-                BrokenPromise {
-                    promise,
-                    property,
-                    task,
-                    unit: match unit {
-                        "m" => " m",
-                        "rad" => " rad",
-                        _ => "",
-                    },
-                    border,
-                }
+        let broken = promised.into_iter().filter(|(property, _)| !property.holds);
+        let unannounced = unannounced.map(|seen| BrokenPromise {
+            offence: "outside, of which the tick before had said nothing,",
+            worst: seen.worst,
+            at_s: seen.at_s,
+            remark: "",
+            ..self.promise_about(seen.task.as_deref())
+        });
+        broken
+            .map(|(property, offence)| BrokenPromise {
+                offence,
+                worst: property.worst,
+                at_s: property.at_s,
+                remark,
+                ..self.promise_about(property.task.as_deref())
             })
+            .chain(unannounced)
             .collect()
+    }
+
+    /// A promise about a task, of which only that is known.
+    fn promise_about<'a>(&self, task: Option<&'a str>) -> BrokenPromise<'a> {
+        let task = task.unwrap_or("?");
+        BrokenPromise {
+            offence: "",
+            worst: 0.0,
+            at_s: None,
+            remark: "",
+            task,
+            unit: match self.settings.units.get(task).map(String::as_str) {
+                Some("m") => " m",
+                Some("rad") => " rad",
+                _ => "",
+            },
+            border: self.settings.scenario.control.border,
+        }
     }
 
     /// What went wrong, a line each: the fault that ended the run, and every broken promise. Empty for

@@ -1,6 +1,6 @@
 //! One tick of a run, as the log keeps it.
 
-use conik::{ActiveSet, JointVec, Landed, Vec3};
+use conik::{ActiveSet, JointVec, Landed, Reason, Vec3};
 
 /// One tick: the state at t = k / rate *before* the step, and what was decided there.
 #[derive(Clone, Debug, PartialEq)]
@@ -29,6 +29,8 @@ pub struct Record {
     pub qdd: JointVec,
     /// Measured joint positions [rad].
     pub q_measured: Option<JointVec>,
+    /// Why the tick came out as it did.
+    pub reasons: Vec<Reason>,
     /// Whether the speed limit of a joint scaled the velocity.
     pub speed_limited: bool,
     /// Whether no mode kept every set, so that the arm stands still.

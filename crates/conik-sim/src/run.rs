@@ -3,8 +3,9 @@
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
-use conik::{ActiveSet, Frame, JointVec, Monitor, Stack, TaskId};
+use conik::{ActiveSet, Frame, JointVec, Monitor, Stack, Step, TaskId};
 
+use crate::announced::{Announcements, Unannounced};
 use crate::arm::{Arm, ArmError, Feedback, Reference};
 use crate::experiment::Experiment;
 use crate::record::Record;
@@ -33,6 +34,8 @@ pub struct Ended {
     pub outcome: Outcome,
     /// What the monitors saw.
     pub monitor: Monitor,
+    /// Samples outside a set of which the tick before said nothing.
+    pub unannounced: Unannounced,
     /// The experiment, in its last state.
     pub experiment: Experiment,
 }
@@ -49,8 +52,12 @@ pub fn run(
     sink: &mut dyn Sink,
     stop: &AtomicBool,
 ) -> Ended {
-    let mut monitor = Monitor::new(experiment.controller.stack());
-    let ended = drive(&mut experiment, &mut monitor, arm, sink, stop);
+    let stack = experiment.controller.stack();
+    let mut watch = Watch {
+        monitor: Monitor::new(stack),
+        announcements: Announcements::new(stack),
+    };
+    let ended = drive(&mut experiment, &mut watch, arm, sink, stop);
     let stopped = arm.stop();
     let outcome = match ended.and_then(|completed| stopped.map(|()| completed)) {
         Ok(true) => Outcome::Completed,
@@ -62,15 +69,29 @@ pub fn run(
     };
     Ended {
         outcome,
-        monitor,
+        monitor: watch.monitor,
+        unannounced: watch.announcements.unannounced(),
         experiment,
+    }
+}
+
+/// Who looks on.
+struct Watch {
+    monitor: Monitor,
+    announcements: Announcements,
+}
+
+impl Watch {
+    fn observe(&mut self, stack: &Stack, step: &Step, t_s: f64) {
+        self.monitor.observe(stack, step, t_s);
+        self.announcements.observe(stack, step, t_s);
     }
 }
 
 /// `true` if the run went to its end, `false` if it was interrupted.
 fn drive(
     experiment: &mut Experiment,
-    monitor: &mut Monitor,
+    watch: &mut Watch,
     arm: &mut dyn Arm,
     sink: &mut dyn Sink,
     stop: &AtomicBool,
@@ -86,6 +107,7 @@ fn drive(
         }
         let feedback = arm.next_cycle()?;
         let t_s = tick as f64 / rate_hz;
+        experiment.move_world(t_s);
         let mut record = decide(experiment, &columns, &q, &feedback)?;
         let step = experiment.controller.last_step();
         arm.send(&Reference {
@@ -93,7 +115,7 @@ fn drive(
             qd: step.qd,
             qdd: step.qdd,
         })?;
-        monitor.observe(experiment.controller.stack(), step, t_s);
+        watch.observe(experiment.controller.stack(), step, t_s);
         q = step.q_ref;
 
         record.tick = tick;
@@ -173,6 +195,7 @@ fn decide(
         qd: step.qd,
         qdd: step.qdd,
         q_measured: feedback.q,
+        reasons: step.reasons().to_vec(),
         speed_limited: step.speed_limit.is_some(),
         no_mode: step.no_mode,
         landed: step.landed,
@@ -217,7 +240,23 @@ impl Columns {
         values.chain(errors).collect()
     }
 
-    fn values(&self, step: &conik::Step) -> Vec<f64> {
+    /// The value of a task of one component, as it stands in a record.
+    pub fn value(&self, record: &Record, task: TaskId) -> Option<f64> {
+        let index = self.scalars.iter().position(|&other| other == task)?;
+        record.task_values.get(index).copied()
+    }
+
+    /// The norm of the error of an equality task, as it stands in a record.
+    pub fn error(&self, record: &Record, task: TaskId) -> Option<f64> {
+        record.task_values.get(self.error_index(task)?).copied()
+    }
+
+    fn error_index(&self, task: TaskId) -> Option<usize> {
+        let index = self.equalities.iter().position(|&other| other == task)?;
+        Some(self.scalars.len() + index)
+    }
+
+    fn values(&self, step: &Step) -> Vec<f64> {
         let values = self.scalars.iter().map(|&id| step.value(id)[0]);
         let errors = self.equalities.iter().map(|&id| step.error_norm(id));
         values.chain(errors).collect()

@@ -2,9 +2,10 @@
 
 use std::collections::BTreeMap;
 
-use conik::{Deviation, Goal, JointVec, Monitor, Stack};
+use conik::{ActiveSet, Deviation, Goal, JointVec, Monitor, Reason, Stack};
 
 use crate::experiment::Experiment;
+use crate::monitors::Monitors;
 use crate::record::Record;
 use crate::run::Ended;
 use crate::scenario::Border;
@@ -28,6 +29,15 @@ pub struct Summariser {
     no_mode_ticks: u64,
     landing: Landing,
     step_work_max: StepWork,
+    held: Vec<Held>,
+    last_active: ActiveSet,
+}
+
+/// How one set was held.
+#[derive(Clone, Copy, Debug, Default)]
+struct Held {
+    times: u64,
+    largest_crossing: f64,
 }
 
 #[derive(Clone, Debug)]
@@ -56,6 +66,8 @@ impl Summariser {
             no_mode_ticks: 0,
             landing: Landing::default(),
             step_work_max: StepWork::default(),
+            held: vec![Held::default(); stack.len()],
+            last_active: ActiveSet::EMPTY,
         }
     }
 
@@ -82,6 +94,7 @@ impl Summariser {
         self.no_mode_ticks += u64::from(record.no_mode);
         self.landing.add(record);
         self.step_work_max.raise(record);
+        self.take_held(record);
         if let Some(measured) = record.q_measured {
             let still = JointVec::zeros(measured.len());
             self.tracking
@@ -91,6 +104,20 @@ impl Summariser {
                     ticks: 0,
                 })
                 .add(&record.q, &measured);
+        }
+    }
+
+    fn take_held(&mut self, record: &Record) {
+        for task in record.active.iter() {
+            let is_new = !self.last_active.contains(task);
+            self.held[task.index()].times += u64::from(is_new);
+        }
+        self.last_active = record.active;
+        for reason in &record.reasons {
+            if let Reason::Holds { task, crossing, .. } = *reason {
+                let held = &mut self.held[task.index()];
+                held.largest_crossing = held.largest_crossing.max(crossing);
+            }
         }
     }
 
@@ -113,13 +140,15 @@ impl Summariser {
 
     /// The summary of the run that has ended.
     pub fn finish(self, ended: &Ended, settings: Settings, version: &str) -> Summary {
-        self.summary(
+        let mut summary = self.summary(
             &ended.experiment,
             &ended.monitor,
             ended.outcome.clone(),
             settings,
             version,
-        )
+        );
+        summary.monitors = Some(Monitors::of(ended));
+        summary
     }
 
     fn summary(
@@ -140,7 +169,8 @@ impl Summariser {
             settings,
             outcome,
             ended_at_s,
-            tasks: tasks(experiment, monitor, ticked),
+            monitors: None,
+            tasks: tasks(experiment, monitor, &self.held, ticked),
             properties: properties(&seen, &self.task_names, ticked),
             modes: self.modes,
             waypoints_reached_s: self.reached,
@@ -198,14 +228,16 @@ impl TrackingSum {
 fn tasks(
     experiment: &Experiment,
     monitor: &Monitor,
+    held: &[Held],
     ticked: bool,
 ) -> BTreeMap<String, TaskSummary> {
-    let period = 1.0 / experiment.controller.settings().rate_hz;
+    let period = experiment.period_s();
     let stack = experiment.controller.stack();
     stack
         .iter()
         .map(|(id, level)| {
             let history = monitor.history(id);
+            let held = held[id.index()];
             let is_set = matches!(level.goal(), Goal::Set { .. });
             let summary = TaskSummary {
                 min: history.min.is_finite().then_some(history.min),
@@ -214,6 +246,8 @@ fn tasks(
                 entered_set_s: history.entered_s,
                 final_error: (ticked && !is_set).then_some(history.final_error),
                 active_s: is_set.then_some(history.active_ticks as f64 * period),
+                held_times: is_set.then_some(held.times),
+                largest_crossing: is_set.then_some(held.largest_crossing),
             };
             (level.name().to_owned(), summary)
         })

@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
+use crate::monitors::Monitors;
 use crate::scenario::Scenario;
 
 /// Version of the layout of `summary.json` and `log.csv`.
@@ -45,6 +46,9 @@ pub struct Summary {
     /// What it took to land inside the sets; `None` with border `freeze`, which does not.
     #[serde(default)]
     pub landing: Option<Landing>,
+    /// What was seen besides the properties; `None` while the run goes on.
+    #[serde(default)]
+    pub monitors: Option<Monitors>,
     /// The most work of one step.
     #[serde(default)]
     pub step_work_max: StepWork,
@@ -108,6 +112,13 @@ pub struct TaskSummary {
     pub final_error: Option<f64>,
     /// For how long it was active [s]; `None` for an equality task.
     pub active_s: Option<f64>,
+    /// How often it became active; `None` for an equality task.
+    #[serde(default)]
+    pub held_times: Option<u64>,
+    /// How much further out it would have been at the end of a period, let go, at most [task's unit];
+    /// `None` for an equality task.
+    #[serde(default)]
+    pub largest_crossing: Option<f64>,
 }
 
 /// The five properties that the paper's Section VI confirms.

@@ -4,9 +4,12 @@ use std::sync::atomic::AtomicBool;
 
 use conik_sim::arm::{ArmError, IdealArm};
 use conik_sim::experiment::Experiment;
+use conik_sim::monitors::{Sighting, Verdict};
 use conik_sim::record::Record;
 use conik_sim::run::run;
-use conik_sim::scenario::{Border, ModeRule, Recursion, Scenario};
+use conik_sim::scenario::{
+    Border, GoalConfig, ModeRule, Motion, Recursion, Scenario, TaskConfig, TaskKind,
+};
 use conik_sim::summarise::Summariser;
 use conik_sim::summary::{Outcome, Property, Settings, Summary};
 
@@ -92,6 +95,149 @@ fn broken_property_is_a_fault_with_border_land_and_none_with_freeze() {
 }
 
 #[test]
+fn sample_outside_is_a_fault_that_says_whether_it_was_announced() {
+    let (_, mut summary) = run_of(example2());
+    let seen = |worst| Sighting {
+        verdict: Verdict::Seen,
+        ticks: 1,
+        for_s: 0.008,
+        worst,
+        at_s: Some(2.0),
+        task: Some("obstacle_a".to_owned()),
+    };
+    summary.properties.inside_stays = dip(0.0021);
+    summary.monitors.as_mut().expect("watched").went_outside = seen(0.0021);
+    let announced = summary.faults();
+    assert_eq!(announced.len(), 1, "{announced:?}");
+    assert!(announced[0].contains("the tick before had announced"));
+    summary.properties.inside_stays = dip(0.0);
+    // Within the tolerance of the properties, but nobody had said so.
+    summary.monitors.as_mut().expect("watched").unannounced = seen(1e-9);
+    let unannounced = summary.faults();
+    assert_eq!(unannounced.len(), 1, "{unannounced:?}");
+    for part in ["`obstacle_a`", "1.000e-9 m", "had said nothing", "at 2 s"] {
+        assert!(unannounced[0].contains(part), "{part}: {unannounced:?}");
+    }
+    summary.settings.scenario.control.border = Border::Freeze;
+    assert_eq!(summary.faults(), [""; 0]);
+}
+
+/// The tool of Example 2 stays where it is, and a ball of 0.1 m crosses its place at `speed` [m/s].
+fn crossing(speed: f64) -> Scenario {
+    let mut scenario = example2();
+    let experiment = Experiment::new(&scenario).expect("a sound scenario");
+    let mut kinematics = conik::Kinematics::new(&experiment.robot);
+    kinematics.update(&experiment.q0);
+    let tool = kinematics.base_from(conik::Frame::Tool).origin.to_array();
+    scenario.tasks.truncate(1);
+    scenario.tasks.push(TaskConfig {
+        name: "position".to_owned(),
+        kind: TaskKind::Position,
+        goal: GoalConfig::Desired {
+            desired: tool.to_vec(),
+            gain_per_s: 1.0,
+        },
+    });
+    let mut start = tool;
+    start[1] -= 0.3;
+    scenario.tasks[0].kind = TaskKind::Distance {
+        point_m: start,
+        motion: Some(Motion {
+            velocity_m_per_s: [0.0, speed, 0.0],
+            moves_until_s: None,
+        }),
+    };
+    scenario.tasks[0].goal = GoalConfig::Set {
+        min: Some(0.1),
+        max: None,
+        recovery_per_s: None,
+        gain_per_s: None,
+    };
+    scenario.control.exclusive.clear();
+    scenario.control.duration_s = 0.6 / speed;
+    scenario
+}
+
+#[test]
+fn ball_that_moves_is_avoided_where_the_arm_is_fast_enough_and_else_announced() {
+    let (records, slow) = run_of(crossing(0.2));
+    assert_eq!(slow.faults(), [""; 0]);
+    let closest = |records: &[Record]| {
+        let values = records.iter().map(|record| record.task_values[0]);
+        values.fold(f64::INFINITY, f64::min)
+    };
+    assert!((0.1..0.1 + 1e-3).contains(&closest(&records)), "it came");
+    let seen = slow.monitors.expect("watched");
+    assert_eq!(seen.went_outside.verdict, Verdict::Never);
+
+    let (records, fast) = run_of(crossing(20.0));
+    assert!(closest(&records) < 0.09, "no arm is so fast");
+    let seen = fast.monitors.as_ref().expect("watched");
+    assert_eq!(seen.went_outside.verdict, Verdict::Seen);
+    assert_eq!(seen.unannounced.verdict, Verdict::Never);
+    assert!(seen.joints.iter().any(|joint| joint.speed_limited_s > 0.0));
+    let faults = fast.faults();
+    assert!(
+        faults[0].contains("the tick before had announced"),
+        "{faults:?}"
+    );
+}
+
+/// The tool starts 0.05 m inside a ball that is at rest.
+#[test]
+fn set_that_starts_outside_is_entered_at_the_speed_of_recovery() {
+    let mut scenario = crossing(0.2);
+    let TaskKind::Distance { point_m, motion } = &mut scenario.tasks[0].kind else {
+        panic!("a ball");
+    };
+    point_m[1] += 0.25;
+    *motion = None;
+    scenario.control.duration_s = 2.0;
+    let entered = |recovery: Option<f64>| {
+        let mut scenario = scenario.clone();
+        if let GoalConfig::Set { recovery_per_s, .. } = &mut scenario.tasks[0].goal {
+            *recovery_per_s = recovery;
+        }
+        let (_, summary) = run_of(scenario);
+        assert_eq!(summary.faults(), [""; 0]);
+        summary.tasks["obstacle_a"].entered_set_s
+    };
+    assert_eq!(entered(None), None, "nothing drives it in");
+    let at_s = entered(Some(0.05)).expect("it is driven in");
+    assert!((at_s - 1.0).abs() < 0.05, "0.05 m at 0.05 m/s: {at_s} s");
+}
+
+#[test]
+fn summary_counts_how_often_each_set_was_held() {
+    let (records, summary) = run_of(example2());
+    let task = conik::Stack::find;
+    let experiment = Experiment::new(&example2()).expect("a sound scenario");
+    let view = task(experiment.controller.stack(), "view").expect("there");
+    let mut times = 0;
+    let mut was = false;
+    let mut crossing: f64 = 0.0;
+    for record in &records {
+        let is = record.active.contains(view);
+        times += u64::from(is && !was);
+        was = is;
+        for reason in &record.reasons {
+            if let conik::Reason::Holds {
+                task, crossing: by, ..
+            } = *reason
+                && task == view
+            {
+                crossing = crossing.max(by);
+            }
+        }
+    }
+    let result = &summary.tasks["view"];
+    assert!(times > 0 && crossing > 0.0, "the run shows something");
+    assert_eq!(result.held_times, Some(times));
+    assert_eq!(result.largest_crossing, Some(crossing));
+    assert_eq!(summary.tasks["position"].held_times, None);
+}
+
+#[test]
 fn observations_and_what_is_within_tolerance_are_no_faults() {
     let (_, mut summary) = run_of(example2());
     summary.properties.equality_converges = dip(1.0);
@@ -154,7 +300,14 @@ fn summaries_of_earlier_builds_are_still_read() {
     let mut json = serde_json::to_value(&summary).expect("a summary can be written");
     let fields = json.as_object_mut().expect("an object");
     assert!(fields.remove("landing").is_some() && fields.remove("step_work_max").is_some());
+    assert!(fields.remove("monitors").is_some());
+    for task in fields["tasks"].as_object_mut().expect("tasks").values_mut() {
+        let task = task.as_object_mut().expect("an object");
+        assert!(task.remove("held_times").is_some());
+        assert!(task.remove("largest_crossing").is_some());
+    }
     let read: Summary = serde_json::from_value(json).expect("an earlier summary");
     assert_eq!(read.landing, None);
-    assert_eq!(read.tasks, summary.tasks);
+    assert_eq!((read.monitors, read.tasks["view"].held_times), (None, None));
+    assert_eq!(read.tasks["view"].max, summary.tasks["view"].max);
 }

@@ -5,8 +5,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use conik_sim::scenario::{
-    Border, Choice, Control, GoalConfig, LoadError, MAX_FILE_BYTES, ModeRule, Recursion, Scenario,
-    TaskKind, template,
+    Border, Choice, Control, GoalConfig, LoadError, MAX_FILE_BYTES, ModeRule, Motion, Recursion,
+    Scenario, TaskKind, template,
 };
 use proptest::prelude::*;
 
@@ -60,6 +60,7 @@ fn the_papers_second_example_reads_as_written() {
         GoalConfig::Set {
             min: None,
             max: Some(0.2622),
+            recovery_per_s: None,
             gain_per_s: None
         }
     );
@@ -157,6 +158,56 @@ fn there_is_more_than_one_right_way_to_write_a_value() {
             desired: vec![1.0, 2.0, 3.0],
             gain_per_s: 1.0
         }
+    );
+}
+
+#[test]
+fn limits_motion_and_recovery_read_as_written_and_back() {
+    let written = "[robot]\nmodel = \"ur5-paper\"\nq0_rad = [0, 0.5, 1, 0, 0, 0]\n\
+        position_limits_deg = [[-90, 90], [], [-180, 180], [], [], []]\n\
+        speed_limits_deg_per_s = 180\n\
+        acceleration_limits_rad_per_s2 = [1, 2, 3, 4, 5, 6]\n\
+        [[task]]\nname = \"d\"\ntype = \"distance\"\npoint_m = [1, 2, 3]\n\
+        velocity_m_per_s = [0, -0.2, 0]\nmoves_until_s = 4\nmin = 0.1\nrecovery_per_s = 0.05\n";
+    let scenario = Scenario::from_toml(written).expect("it is right");
+    let half_turn = std::f64::consts::PI;
+    let limits = &scenario.robot.limits;
+    let pairs = limits.position_limits_rad.as_ref().expect("given");
+    assert_eq!(pairs[0], Some([-half_turn / 2.0, half_turn / 2.0]));
+    assert_eq!((pairs[1], pairs[2]), (None, Some([-half_turn, half_turn])));
+    assert_eq!(limits.speed_limits_rad_per_s, Some(vec![half_turn; 6]));
+    let accelerations = limits.acceleration_limits_rad_per_s2.as_deref();
+    assert_eq!(accelerations, Some(&[1.0, 2.0, 3.0, 4.0, 5.0, 6.0][..]));
+    let motion = Motion {
+        velocity_m_per_s: [0.0, -0.2, 0.0],
+        moves_until_s: Some(4.0),
+    };
+    let kind = TaskKind::Distance {
+        point_m: [1.0, 2.0, 3.0],
+        motion: Some(motion),
+    };
+    assert_eq!(scenario.tasks[0].kind, kind);
+    let GoalConfig::Set { recovery_per_s, .. } = scenario.tasks[0].goal else {
+        panic!("a set");
+    };
+    assert_eq!(recovery_per_s, Some(0.05));
+    assert_eq!(
+        Scenario::from_toml(&scenario.to_toml()).as_ref(),
+        Ok(&scenario)
+    );
+    let json = serde_json::to_string(&scenario).expect("it can be written");
+    let read: Scenario = serde_json::from_str(&json).expect("it can be read");
+    assert_eq!(read, scenario);
+    let earlier = fs::read_to_string(example(1)).expect("the example is there");
+    let earlier = Scenario::from_toml(&earlier).expect("it is right");
+    let json = serde_json::to_string(&earlier).expect("it can be written");
+    assert!(
+        !json.contains("limits") && !json.contains("velocity"),
+        "{json}"
+    );
+    assert_eq!(
+        serde_json::from_str::<Scenario>(&json).expect("read"),
+        earlier
     );
 }
 

@@ -72,6 +72,8 @@ const fn case(
 }
 
 const Q0: &str = "q0_deg = [-48, -158, -108, -90, -85, 0]";
+/// The line after the start, for what may stand there besides.
+const LIMITED: &str = "[control]";
 const EXCLUSIVE: &str = r#"exclusive = [["a", "b"]]"#;
 const WAYPOINTS: &str = "waypoints_m = [[0.486, -0.066, -0.250]]";
 const POINT: &str = "point_m = [0.40, -0.25, -0.33]";
@@ -101,6 +103,18 @@ const CASES: &[Case] = &[
     case(Q0, "q0_rad = [0, 0, 0, 0, 0, 1001]", "robot.q0_rad[6]", 4, &["1001 is out of range", "from -1000 to 1000 rad"]),
     case(Q0, "q0_deg = [0, 0, 0, 0, 0, 0]\nq0_rad = [0, 0, 0, 0, 0, 0]", "robot.q0_rad", 5, &["both `q0_deg` and `q0_rad`"]),
     case(Q0, "q0 = [0, 0, 0, 0, 0, 0]\nq0_rad = [0, 0, 0, 0, 0, 0]", "robot.q0", 4, &["unknown key", "did you mean `q0_"]),
+    case(LIMITED, "position_limits_deg = [[-1, 1]]\n[control]", "robot.position_limits_deg", 5, &["has 6 joints, found 1 pairs"]),
+    case(LIMITED, "position_limits_deg = 90\n[control]", "robot.position_limits_deg", 5, &["a list of pairs of numbers"]),
+    case(LIMITED, "position_limits_deg = [1, 2, 3, 4, 5, 6]\n[control]", "robot.position_limits_deg[1]", 5, &["a pair of numbers, or `[]`"]),
+    case(LIMITED, "position_limits_rad = [[], [1], [], [], [], []]\n[control]", "robot.position_limits_rad[2]", 5, &["two numbers or none, found 1"]),
+    case(LIMITED, "position_limits_rad = [[], [], [], [], [], [2, 1]]\n[control]", "robot.position_limits_rad[6]", 5, &["2 is greater than 1", "least position stands first"]),
+    case(LIMITED, "position_limits_rad = [[], [], [], [0, nan], [], []]\n[control]", "robot.position_limits_rad[4][2]", 5, &["NaN"]),
+    case(LIMITED, "speed_limits_deg_per_s = 0\n[control]", "robot.speed_limits_deg_per_s", 5, &["more than 0", "deg/s"]),
+    case(LIMITED, "speed_limits_deg_per_s = [1, 2]\n[control]", "robot.speed_limits_deg_per_s", 5, &["has 6 joints, found 2 numbers"]),
+    case(LIMITED, "speed_limits_deg_per_s = \"fast\"\n[control]", "robot.speed_limits_deg_per_s", 5, &["a number, or a list of numbers"]),
+    case(LIMITED, "speed_limits_rad_per_s = [1, 1, -1, 1, 1, 1]\n[control]", "robot.speed_limits_rad_per_s[3]", 5, &["-1 is out of range"]),
+    case(LIMITED, "acceleration_limits_rad_per_s2 = 4\nacceleration_limits_deg_per_s2 = 4\n[control]", "robot.acceleration_limits_rad_per_s2", 5, &["both `acceleration_limits_deg_per_s2` and"]),
+    case(LIMITED, "acceleration_limit_rad_per_s2 = 4\n[control]", "robot.acceleration_limit_rad_per_s2", 5, &["did you mean `acceleration_limits_rad_per_s2`?"]),
     // [control]
     case("rate_hz = 125", "rate = 125", "control.rate", 6, &["did you mean `rate_hz`?"]),
     case("rate_hz = 125", "rate_hz = 0", "control.rate_hz", 6, &["0 is out of range", "from 1 to 10000 Hz"]),
@@ -148,6 +162,8 @@ const CASES: &[Case] = &[
     case("name = \"view\"", "name = \"qd1_rad_s\"", "task[4] \"qd1_rad_s\".name", 29, &["a column of the log"]),
     case("name = \"view\"", "name = \"qdd1_rad_s2\"", "task[4] \"qdd1_rad_s2\".name", 29, &["a column of the log"]),
     case("name = \"view\"", "name = \"q3_measured_rad\"", "task[4] \"q3_measured_rad\".name", 29, &["a column of the log"]),
+    case("name = \"view\"", "name = \"why\"", "task[4] \"why\".name", 29, &["a column of the log"]),
+    case("name = \"view\"", "name = \"limit/elbow_joint\"", "task[4] \"limit/elbow_joint\".name", 29, &["belong to the joints' position limits", "\"limit_elbow_joint\""]),
     // Types and their keys.
     case("type = \"distance\"", "", "task[1] \"a\".type", 12, &["missing"]),
     case("type = \"distance\"", "type = \"distanec\"", "task[1] \"a\".type", 14, &["unknown task type", "did you mean \"distance\"?", "\"joint\""]),
@@ -157,6 +173,11 @@ const CASES: &[Case] = &[
     case(POINT, "point_m = [1, 2, nan]", "task[1] \"a\".point_m[3]", 15, &["NaN"]),
     case(POINT, "point_m = [1, 2, 1e300]", "task[1] \"a\".point_m[3]", 15, &["1e300 is out of range"]),
     case(POINT, "point_m = { x = 1 }", "task[1] \"a\".point_m", 15, &["found a table"]),
+    case("min = 0.18", "min = 0.18\nvelocity_m_per_s = 0.2", "task[1] \"a\".velocity_m_per_s", 17, &["a list of three numbers"]),
+    case("min = 0.18", "min = 0.18\nvelocity_m_per_s = [0, inf, 0]", "task[1] \"a\".velocity_m_per_s[2]", 17, &["inf"]),
+    case("min = 0.18", "min = 0.18\nmoves_until_s = 4", "task[1] \"a\".moves_until_s", 17, &["does not move", "velocity_m_per_s = ["]),
+    case("min = 0.18", "min = 0.18\nvelocity_m_per_s = [0, 1, 0]\nmoves_until_s = -4", "task[1] \"a\".moves_until_s", 18, &["out of range"]),
+    case("axis = \"z\"", "axis = \"z\"\nvelocity_m_per_s = [0, 1, 0]", "task[2] \"b\".velocity_m_per_s", 21, &["a key of type \"distance\", not of \"coordinate\""]),
     case("axis = \"z\"", "axis = \"w\"", "task[2] \"b\".axis", 20, &["\"x\", \"y\", \"z\""]),
     case("axis = \"z\"", "", "task[2] \"b\".axis", 17, &["missing"]),
     case("axis = \"z\"", "axis = \"z\"\ndirection = [1, 0, 0]", "task[2] \"b\".direction", 21, &["a key of type \"field_of_view\", not of \"coordinate\""]),
@@ -183,6 +204,10 @@ const CASES: &[Case] = &[
     case("gain_per_s = 1\n", "gain_per_s = 250\n", "task[5] \"elbow\".gain_per_s", 39, &["unstable at 125 Hz", "less than 250"]),
     case("gain_per_s = 1\n", "gain_per_s = -1\n", "task[5] \"elbow\".gain_per_s", 39, &["more than 0"]),
     case("gain_per_s = 1\n", "gain = 1\ngain_per_s = 1\n", "task[5] \"elbow\".gain", 39, &["did you mean `gain_per_s`?"]),
+    case("min = 0.18", "min = 0.18\nrecovery_per_s = 0", "task[1] \"a\".recovery_per_s", 17, &["more than 0"]),
+    case("desired = -1.5", "desired = -1.5\nrecovery_per_s = 1", "task[5] \"elbow\".recovery_per_s", 39, &["equality task", "`gain_per_s`"]),
+    case("max = 0.26\n", "max = 0.26\nrecovery_per_s = 1\n", "task[4] \"view\".recovery_per_s", 33, &["low priority", "task[3] \"p\"", "move the task above"]),
+    case("acceptance_m = 0.02", "acceptance_m = 0.02\nrecovery_per_s = 1", "task[3] \"p\".recovery_per_s", 27, &["cannot be a set"]),
     // Positions.
     case(WAYPOINTS, "waypoints_m = []", "task[3] \"p\".waypoints_m", 25, &["the list is empty"]),
     case(WAYPOINTS, "waypoints_m = [0.4, 0.1, 0.2]", "task[3] \"p\".waypoints_m[1]", 25, &["a list of three numbers"]),

@@ -49,6 +49,9 @@ const GOOD: &str = r#"
 [robot]
 model = "ur5-paper"
 q0_rad = [0, 0.5, 1, 0, 0, 0]
+position_limits_deg = [[-90, 90], [], [], [], [], []]
+speed_limits_rad_per_s = 1
+acceleration_limits_deg_per_s2 = [1, 2, 3, 4, 5, 6]
 [control]
 rate_hz = 125
 exclusive = [["a", "b"]]
@@ -56,7 +59,10 @@ exclusive = [["a", "b"]]
 name = "a"
 type = "distance"
 point_m = [1, 2, 3]
+velocity_m_per_s = [0, 0, 0.1]
+moves_until_s = 3
 min = 0.1
+recovery_per_s = 0.1
 [[task]]
 name = "b"
 type = "field_of_view"
@@ -80,6 +86,8 @@ desired = 1
 gain_per_s = 2
 "#;
 
+const PAIRS: &str = "position_limits_deg = [[-90, 90], [], [], [], [], []]";
+
 #[test]
 fn schema_and_reader_refuse_the_same_mistakes() {
     assert!(Scenario::from_toml(GOOD).is_ok() && is_valid(GOOD));
@@ -98,6 +106,19 @@ fn schema_and_reader_refuse_the_same_mistakes() {
             "q0_rad = [0, 0.5, 1, 0, 0, 0]",
             "q0_rad = [0, 0.5, 1, 0, 0, 0]\nq0_deg = [0, 0, 0, 0, 0, 0]",
         ),
+        (PAIRS, "position_limits_deg = [[0, 1]]"),
+        (PAIRS, "position_limits_rad = [[0], [], [], [], [], []]"),
+        (PAIRS, "position_limits_rad = [[], [], [], [], [], 1]"),
+        ("speed_limits_rad_per_s = 1", "speed_limits_rad_per_s = 0"),
+        ("speed_limits_rad_per_s = 1", "speed_limits_rad_per_s = [1]"),
+        ("[control]", "acceleration_limits_rad_per_s2 = 1\n[control]"),
+        (
+            "velocity_m_per_s = [0, 0, 0.1]",
+            "velocity_m_per_s = [1, 2]",
+        ),
+        ("velocity_m_per_s = [0, 0, 0.1]", ""),
+        ("recovery_per_s = 0.1", "recovery_per_s = 0"),
+        ("gain_per_s = 2", "gain_per_s = 2\nrecovery_per_s = 1"),
         ("rate_hz = 125", "rate = 125"),
         ("rate_hz = 125", "rate_hz = 0"),
         ("rate_hz = 125", "rate_hz = \"fast\""),
@@ -120,7 +141,7 @@ fn schema_and_reader_refuse_the_same_mistakes() {
         ("joint = \"elbow_joint\"", ""),
         ("point_m = [1, 2, 3]", "point_m = [1, 2]"),
         ("min = 0.1", ""),
-        ("min = 0.1", "min = 0.1\ndesired = 1\ngain_per_s = 1"),
+        ("min = 0.1\n", "min = 0.1\ndesired = 1\ngain_per_s = 1\n"),
         ("min = 0.1", "min = 0.1\naxis = \"z\""),
         ("min = 0.1", "max = -0.1"),
         ("max = 0.2", "min = 2.5"),

@@ -71,15 +71,35 @@ impl ActiveSet {
     }
 
     /// The tasks in list order.
-    pub fn iter(&self) -> impl Iterator<Item = TaskId> + '_ {
-        self.words.iter().enumerate().flat_map(|(i, &word)| {
-            let mut rest = word;
-            core::iter::from_fn(move || {
+    #[inline]
+    pub fn iter(&self) -> impl Iterator<Item = TaskId> + use<> {
+        Members {
+            rest: self.words,
+            word: 0,
+        }
+    }
+}
+
+/// The members that have not come yet.
+struct Members {
+    rest: [u64; MAX_TASKS / WORD],
+    word: usize,
+}
+
+impl Iterator for Members {
+    type Item = TaskId;
+
+    #[inline]
+    fn next(&mut self) -> Option<TaskId> {
+        loop {
+            let rest = self.rest.get_mut(self.word)?;
+            if *rest != 0 {
                 let bit = rest.trailing_zeros() as usize;
-                rest &= rest.wrapping_sub(1);
-                (bit < WORD).then(|| TaskId::new(i * WORD + bit))
-            })
-        })
+                *rest &= *rest - 1;
+                return Some(TaskId::new(self.word * WORD + bit));
+            }
+            self.word += 1;
+        }
     }
 }
 

@@ -189,14 +189,18 @@ impl Borders {
 /// A bound that jumped moved by more than this; what is less is rounding [task's unit].
 const JUMP: f64 = 1e-3 * MARGIN;
 
+/// The leeway follows what is gained only by more than this [task's unit]. Following every gain, two sets
+/// that pull apart would soon leave no room between them, and the arm would stand still.
+const GAIN: f64 = 2.0 * MARGIN;
+
 /// The leeway of a side that is `outside` by so much now. The slack of a margin is given once and never
 /// grows; only a bound that jumped away from the task gives it a new start.
 fn least_leeway(best: f64, outside: f64) -> f64 {
     let now = (outside + MARGIN).max(0.0);
-    if outside > best + JUMP {
+    if outside > best + JUMP || now == 0.0 || best - now > GAIN {
         now
     } else {
-        best.min(now)
+        best
     }
 }
 

@@ -117,17 +117,15 @@ impl Limits {
         shorten(qd, anchor, |joint| self.range(joint, Some(before)))
     }
 
-    /// The joint that exceeds its acceleration limit most.
-    pub(crate) fn exceeded(&self, qd: &[f64], before: &[f64]) -> Option<Exceeded> {
-        let changes = self.speed_change.as_ref()?;
-        let joints = qd.iter().zip(before).zip(changes).enumerate();
-        joints
-            .map(|(joint, ((qd, before), change))| Exceeded {
-                joint,
-                times: (qd - before).abs() / change,
-            })
-            .filter(|exceeded| exceeded.times > 1.0 + ROUNDING)
-            .max_by(|a, b| a.times.total_cmp(&b.times))
+    /// The joints that exceed their acceleration limits, given the accelerations.
+    pub(crate) fn exceeded(&self, qdd: &[f64]) -> impl Iterator<Item = Exceeded> {
+        let changes = self.speed_change.as_deref().unwrap_or_default();
+        let joints = qdd.iter().zip(changes).enumerate();
+        let times = joints.map(|(joint, (qdd, change))| Exceeded {
+            joint,
+            times: (qdd * self.period).abs() / change,
+        });
+        times.filter(|exceeded| exceeded.times > 1.0 + ROUNDING)
     }
 }
 

@@ -42,8 +42,8 @@ pub struct Step {
     pub(crate) errors: TaskVectors,
 }
 
-/// Kinds of reasons that are not about a task.
-const REASONS_OF_THE_WHOLE: usize = 9;
+/// Kinds of reasons that are not about a task or a joint's acceleration.
+const REASONS_OF_THE_WHOLE: usize = 8;
 
 impl Step {
     pub(crate) fn at_rest(stack: &Stack) -> Self {
@@ -60,7 +60,7 @@ impl Step {
             modes_evaluated: 0,
             pivots: 0,
             landed: Landed::default(),
-            reasons: Vec::with_capacity(2 * stack.len() + REASONS_OF_THE_WHOLE),
+            reasons: Vec::with_capacity(2 * stack.len() + stack.dof() + REASONS_OF_THE_WHOLE),
             values: TaskVectors::zeros(stack),
             errors: TaskVectors::zeros(stack),
         }
@@ -79,7 +79,6 @@ impl Step {
         let reasons = [
             self.speed_limit.map(Reason::SpeedLimit),
             self.acceleration_limit.map(Reason::AccelerationLimit),
-            self.acceleration_exceeded.map(Reason::AccelerationExceeded),
             counted(landed.corrections, Reason::Corrected),
             counted(landed.halvings, Reason::Halved),
             landed.stood_still.then_some(Reason::StandsStill),

@@ -271,3 +271,21 @@ fn conflicts_and_singularities_end_at_rest_at_125_hz() {
 fn conflicts_and_singularities_end_at_rest_at_50_hz() {
     assert_defined(50);
 }
+/// The tool is between two walls that are each on the wrong side: along them it moves as ever.
+#[test]
+fn sets_that_cannot_be_kept_do_not_stop_what_they_leave_free() {
+    let case = CASES
+        .iter()
+        .find(|case| case.name == "two sets that cannot both be kept")
+        .expect("it is there");
+    for settings in all_settings(125.0) {
+        let mut controller = case.controller(settings);
+        let mut q = JointVec::from(case.q0);
+        for _ in 0..DURATION_S * 125 {
+            q = controller.step(&q).expect("finite").q_ref;
+        }
+        let position = controller.stack().find("position").expect("there");
+        let error = controller.last_step().error_norm(position);
+        assert!(error < 1e-3, "{settings:?}: {error} m short");
+    }
+}

@@ -2,6 +2,7 @@
 
 use std::process::ExitCode;
 
+use conik::{Joint, JointKind, JointLimits};
 use conik_cli::report::units::limit;
 use conik_sim::check::{Findings, find};
 use conik_sim::experiment::Experiment;
@@ -43,23 +44,46 @@ fn robot(scenario: &Scenario, experiment: &Experiment, findings: &Findings) -> S
         .zip(experiment.q0.iter())
         .enumerate()
     {
-        let speed = joint.limits.speed.map_or(String::new(), |limit| {
-            format!(", at most {:.1}°/s", limit.to_degrees())
-        });
         let name = &joint.name;
         text += &format!(
-            "  {} {name:<22} starts at {:8.3}°{speed}\n",
+            "  {} {name:<22} starts at {:8.3}°{}\n",
             i + 1,
-            q.to_degrees()
+            q.to_degrees(),
+            limits(joint)
         );
     }
     text + "\n"
 }
 
+/// What a joint must not exceed: `, -90.0…90.0°, at most 180.0°/s`.
+fn limits(joint: &Joint) -> String {
+    let (per_unit, unit) = match joint.kind {
+        JointKind::Revolute => (1_f64.to_degrees(), "°"),
+        JointKind::Prismatic => (1.0, " m"),
+    };
+    let JointLimits {
+        position,
+        speed,
+        acceleration,
+    } = joint.limits;
+    let mut text = String::new();
+    if let Some((min, max)) = position {
+        text += &format!(", {:.1}…{:.1}{unit}", min * per_unit, max * per_unit);
+    }
+    if let Some(limit) = speed {
+        text += &format!(", ≤ {:.1}{unit}/s", limit * per_unit);
+    }
+    if let Some(limit) = acceleration {
+        text += &format!(", ≤ {:.0}{unit}/s²", limit * per_unit);
+    }
+    text
+}
+
 fn hierarchy(scenario: &Scenario, experiment: &Experiment, findings: &Findings) -> String {
     let mut rows = vec![["task", "kind", "wanted", "at the start"].map(str::to_owned)];
     let stack = experiment.controller.stack();
-    for (((id, level), config), now) in stack.iter().zip(&scenario.tasks).zip(&findings.values) {
+    let tasks = scenario.all_tasks();
+    for (((id, level), config), now) in stack.iter().zip(&tasks).zip(&findings.values) {
         let unit = level.task().unit();
         let kind = match (&config.goal, stack.is_high_priority(id)) {
             (GoalConfig::Set { .. }, true) => "high-priority set",

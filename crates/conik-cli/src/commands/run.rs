@@ -25,6 +25,7 @@ use conik_ur::driver::{UrArm, UrConfig};
 use conik_ur::emulator::{Emulator, EmulatorConfig, EmulatorError, Pace, Series};
 
 use crate::arguments::RunArguments;
+use crate::explain::Explanations;
 use crate::failure::{Failure, with_causes};
 use crate::present;
 use crate::progress::Progress;
@@ -44,6 +45,7 @@ pub fn run(arguments: &RunArguments) -> Result<ExitCode, Failure> {
     let mut scenario = Scenario::load(&arguments.scenario)?;
     arguments.overrides.apply(&mut scenario)?;
     let experiment = Experiment::new(&scenario).map_err(Failure::input)?;
+    let explanations = Explanations::new(&arguments.explain, &experiment)?;
     let stop = stop_on_ctrl_c()?;
     let mut driven = arm(arguments, &scenario, &experiment)?;
     let out = out_dir(arguments);
@@ -58,7 +60,13 @@ pub fn run(arguments: &RunArguments) -> Result<ExitCode, Failure> {
         super::print(&present::heading(&scenario, &driven.arm.describe()))?;
     }
     let progress = Progress::new(&experiment, arguments.quiet);
-    let finished = drive(experiment, driven.arm.as_mut(), log, progress, &stop);
+    let listeners = Listeners {
+        log,
+        summariser: Summariser::new(experiment.controller.stack(), experiment.waypoint_count()),
+        explanations,
+        progress,
+    };
+    let finished = drive(experiment, driven.arm.as_mut(), listeners, &stop);
     drop(driven);
     finish(arguments, &out, settings, finished)
 }
@@ -197,10 +205,19 @@ fn arm(
     })
 }
 
+/// Who takes in the records of a run.
+struct Listeners {
+    log: LogWriter,
+    summariser: Summariser,
+    explanations: Explanations,
+    progress: Progress,
+}
+
 /// A run that has ended, and what was made of its records.
 struct Finished {
     ended: Ended,
     summariser: Summariser,
+    explanations: Explanations,
     written: Result<(), LogWriteError>,
     /// Keeps other runs out of the folder until the report is there.
     _log: LogWriter,
@@ -209,12 +226,15 @@ struct Finished {
 fn drive(
     experiment: Experiment,
     arm: &mut (dyn Arm + Send),
-    mut log: LogWriter,
-    mut progress: Progress,
+    listeners: Listeners,
     stop: &AtomicBool,
 ) -> Finished {
-    let stack = experiment.controller.stack();
-    let mut summariser = Summariser::new(stack, experiment.waypoint_count());
+    let Listeners {
+        mut log,
+        mut summariser,
+        mut explanations,
+        mut progress,
+    } = listeners;
     let (sender, records) = mpsc::sync_channel(RECORDS_WAITING);
     let mut written = Ok(());
     let ended = thread::scope(|scope| {
@@ -235,6 +255,7 @@ fn drive(
                 }
             }
             summariser.take(&record);
+            explanations.take(&record);
             progress.show(&record, summariser.present_mode());
         }
         match driver.join() {
@@ -246,6 +267,7 @@ fn drive(
     Finished {
         ended,
         summariser,
+        explanations,
         written: written.and_then(|()| log.finish()),
         _log: log,
     }
@@ -276,6 +298,7 @@ fn finish(
     let Finished {
         ended,
         summariser,
+        explanations,
         written,
         _log,
     } = finished;
@@ -302,9 +325,10 @@ fn finish(
             Err(error) => errors.push(with_causes(&error)),
         }
     }
-    if !arguments.quiet {
-        super::print(&last_words)?;
+    if arguments.quiet {
+        last_words.clear();
     }
+    super::print(&(last_words + &explanations.in_words(&ended.experiment)))?;
     if !errors.is_empty() {
         return Err(Failure::run(errors.join("\nerror: ")));
     }

@@ -50,6 +50,7 @@ pub fn draw(run: &Run, scene: &Scene, view: &View, marks: &mut Marks, placement:
             placement,
         );
     }
+    name_moving(scene, view, marks, placement);
     // So many names would hide what they name.
     let named = if scene.spheres.len() <= MOST_NAMED {
         &scene.spheres[..]
@@ -79,6 +80,18 @@ pub fn draw(run: &Run, scene: &Scene, view: &View, marks: &mut Marks, placement:
         if let Some(best) = placement.choose(&candidates, &name) {
             let style = if inside { style } else { style.rimmed() };
             marks.text(candidates[best].0, &name, style);
+        }
+    }
+}
+
+/// Names what moves where it was at the start and where it is at the end.
+fn name_moving(scene: &Scene, view: &View, marks: &mut Marks, placement: &mut Placement) {
+    let style = Lettering::new(LABEL, "#3b4754");
+    for sphere in scene.moving.iter().take(MOST_NAMED) {
+        let name = lettering::shorten(&sphere.name, LABEL, 130.0);
+        for (at, when) in [(sphere.from, "start"), (sphere.to, "end")] {
+            let text = format!("{name}, {when}");
+            label(view.place(at), 3.0, &text, style, marks, placement);
         }
     }
 }

@@ -11,11 +11,14 @@ use super::lettering;
 use super::palette;
 use super::placement::{Area, Placement};
 use super::run::Run;
-use super::scene::{Scene, Sphere};
+use super::scene::{MovingSphere, Scene, Sphere};
 use super::svg::{Marks, Picture, Point};
 
 /// Size of labels [px].
 pub const LABEL: f64 = 11.0;
+
+/// Outline and way of what moves.
+const MOVING: &str = "#5f6b78";
 
 /// Light from the upper left, on all spheres the same.
 const SHADE: &str = "<defs><radialGradient id=\"sphere\" cx=\"0.5\" cy=\"0.5\" r=\"0.5\" fx=\"0.33\" fy=\"0.28\">\
@@ -52,6 +55,9 @@ pub fn draw(run: &Run, scene: &Scene, width: f64, height: f64) -> Picture {
     let mut placement = Placement::within(page);
     floor::draw(scene, &view, &mut marks, &mut placement);
 
+    for sphere in &scene.moving {
+        draw_moving(&view, sphere, &mut marks);
+    }
     let mut spheres: Vec<&Sphere> = scene.spheres.iter().collect();
     spheres.sort_by(|a, b| {
         camera
@@ -101,10 +107,15 @@ fn outline(scene: &Scene, camera: &Camera) -> Vec<Vector> {
     let mut points: Vec<Vector> = floor.concat();
     points.extend(scene.path.iter().flat_map(|piece| &piece.points));
     points.extend(scene.targets.iter().map(|target| target.point));
-    for sphere in scene.obstacles() {
+    let moving = scene.moving.iter();
+    let moving = moving.flat_map(|sphere| [sphere.from, sphere.to].map(|at| (at, sphere.radius)));
+    let obstacles = scene
+        .obstacles()
+        .map(|sphere| (sphere.centre, sphere.radius));
+    for (centre, radius) in obstacles.chain(moving) {
         for direction in camera.frame() {
-            for reach in [-sphere.radius, sphere.radius] {
-                points.push([0, 1, 2].map(|k| sphere.centre[k] + reach * direction[k]));
+            for reach in [-radius, radius] {
+                points.push([0, 1, 2].map(|k| centre[k] + reach * direction[k]));
             }
         }
     }
@@ -171,6 +182,18 @@ fn draw_sphere(view: &View, sphere: &Sphere, marks: &mut Marks) {
     }
 }
 
+/// Dashed where it was at the start, whole where it is at the end, and its way between.
+fn draw_moving(view: &View, sphere: &MovingSphere, marks: &mut Marks) {
+    let (from, to) = (view.place(sphere.from), view.place(sphere.to));
+    let radius = view.scale * sphere.radius;
+    let dashed = Stroke::dashed(MOVING, 1.2, "4 3");
+    marks.circle(from, radius, "none", dashed);
+    marks.circle(to, radius, "url(#sphere)", Stroke::solid(MOVING, 1.0));
+    marks.line(from, to, dashed);
+    marks.circle(from, 2.0, "#ffffff", Stroke::solid(MOVING, 1.2));
+    marks.circle(to, 2.4, MOVING, Stroke::solid(MOVING, 0.0));
+}
+
 fn draw_target(view: &View, point: Vector, acceptance: f64, marks: &mut Marks) {
     let at = view.place(point);
     let radius = (view.scale * acceptance).max(3.0);
@@ -207,7 +230,7 @@ pub fn legend(run: &Run, width: f64) -> Picture {
 }
 
 fn describe(scene: &Scene) -> String {
-    let obstacles = scene.obstacles().count();
+    let obstacles = scene.obstacles().count() + scene.moving.len();
     let waypoints = scene.targets.len();
     format!(
         "Path of the tool in three dimensions, with {obstacles} obstacles and {waypoints} waypoints"

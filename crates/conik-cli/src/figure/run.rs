@@ -21,6 +21,7 @@ const LARGEST_SUMMARY: u64 = 1 << 28;
 pub struct Run {
     log: Log,
     summary: Summary,
+    tasks: Vec<TaskConfig>,
     modes: Vec<Mode>,
     spans: Vec<Span>,
 }
@@ -98,6 +99,7 @@ impl Run {
                 .collect();
         }
         Self {
+            tasks: summary.settings.scenario.all_tasks(),
             log,
             summary,
             modes,
@@ -115,9 +117,9 @@ impl Run {
         &self.summary
     }
 
-    /// The tasks, the most important first.
+    /// The tasks, the most important first; those of the joints' position limits among them.
     pub fn tasks(&self) -> &[TaskConfig] {
-        &self.summary.settings.scenario.tasks
+        &self.tasks
     }
 
     /// The modes that occurred, in order of first appearance.

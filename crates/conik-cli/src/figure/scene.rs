@@ -14,6 +14,8 @@ pub struct Scene {
     pub path: Vec<Piece>,
     /// Regions that the tool may not enter, or may not leave.
     pub spheres: Vec<Sphere>,
+    /// The like, where the point moves. What they hide depends on the time, so they hide nothing.
+    pub moving: Vec<MovingSphere>,
     /// Where the tool should go, in order.
     pub targets: Vec<Target>,
     /// Whether the base is near enough to be shown.
@@ -48,6 +50,19 @@ pub struct Sphere {
     pub is_obstacle: bool,
 }
 
+/// The region of a distance task whose point moves.
+#[derive(Clone, Debug)]
+pub struct MovingSphere {
+    /// The task's name.
+    pub name: String,
+    /// Its point at the start of the run.
+    pub from: Vector,
+    /// Its point at the end of the run; between the two it moved along a straight line.
+    pub to: Vector,
+    /// Its limit.
+    pub radius: f64,
+}
+
 /// A point that the tool should reach.
 #[derive(Clone, Debug)]
 pub struct Target {
@@ -63,6 +78,7 @@ impl Scene {
         let mut scene = Self {
             path: path_of(run),
             spheres: Vec::new(),
+            moving: Vec::new(),
             targets: Vec::new(),
             shows_base: true,
             low: [0.0; 3],
@@ -71,16 +87,25 @@ impl Scene {
         };
         for task in run.tasks() {
             match (&task.kind, &task.goal) {
-                (TaskKind::Distance { point_m }, GoalConfig::Set { min, max, .. }) => {
+                (&TaskKind::Distance { point_m, motion }, GoalConfig::Set { min, max, .. }) => {
                     for (limit, is_obstacle) in [(min, true), (max, false)] {
-                        let Some(radius) = *limit else { continue };
-                        if radius > 0.0 && radius.is_finite() {
-                            scene.spheres.push(Sphere {
-                                name: task.name.clone(),
-                                centre: *point_m,
+                        let Some(radius) = limit.filter(|r| *r > 0.0 && r.is_finite()) else {
+                            continue;
+                        };
+                        let name = task.name.clone();
+                        match motion {
+                            Some(motion) => scene.moving.push(MovingSphere {
+                                name,
+                                from: point_m,
+                                to: motion.point_at(point_m, run.summary().ended_at_s),
+                                radius,
+                            }),
+                            None => scene.spheres.push(Sphere {
+                                name,
+                                centre: point_m,
                                 radius,
                                 is_obstacle,
-                            });
+                            }),
                         }
                     }
                 }
@@ -194,6 +219,10 @@ impl Scene {
         }
         for sphere in self.spheres.iter().filter(|sphere| sphere.is_obstacle) {
             include(sphere.centre, sphere.radius);
+        }
+        for sphere in &self.moving {
+            include(sphere.from, sphere.radius);
+            include(sphere.to, sphere.radius);
         }
         for target in &self.targets {
             include(target.point, target.acceptance);

@@ -1,6 +1,7 @@
 //! Panel: each set-based task over time, with its limits, its forbidden side and the stretches of
 //! time in which it was active (Fig. 4g-i, and 4k-l for the field of view).
 
+use conik_sim::joint_limits::LIMIT;
 use conik_sim::scenario::{GoalConfig, TaskConfig};
 
 use super::axis::{Axis, range};
@@ -13,9 +14,13 @@ use super::quantity;
 use super::run::{Run, is_set};
 use super::svg::Picture;
 
-/// The set-based tasks in the paper's order: as in the list, the field of view last.
+/// The set-based tasks in the paper's order: as in the list, the field of view last. Of the joints'
+/// position limits only those that bound.
 pub fn tasks(run: &Run) -> Vec<&TaskConfig> {
-    let mut sets: Vec<&TaskConfig> = run.tasks().iter().filter(|task| is_set(task)).collect();
+    let is_idle =
+        |task: &TaskConfig| task.name.starts_with(LIMIT) && run.active_spans(&task.name).is_empty();
+    let sets = run.tasks().iter().filter(|task| is_set(task));
+    let mut sets: Vec<&TaskConfig> = sets.filter(|task| !is_idle(task)).collect();
     sets.sort_by_key(|task| quantity::is_view(task));
     sets
 }

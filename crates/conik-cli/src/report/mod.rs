@@ -13,6 +13,7 @@ use crate::figure::markup::Escaped;
 use crate::figure::svg::Picture;
 use crate::figure::{Run, RunError, errors, joints, mode, path, sets};
 
+pub mod monitors;
 mod properties;
 mod rotation;
 mod tables;
@@ -39,7 +40,11 @@ pub fn page(run: &Run) -> String {
     let title = Escaped(run.title());
     let mut sections = vec![figure_four(run)];
     if !run.was_cut_off() {
-        sections.extend([tables::tasks(run), properties::section(run)]);
+        sections.extend([
+            tables::tasks(run),
+            properties::section(run),
+            monitors::section(run),
+        ]);
     }
     sections.push(tables::mode_changes(run));
     if !run.was_cut_off() {

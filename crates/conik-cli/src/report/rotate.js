@@ -61,6 +61,18 @@
     }).join("");
   }
 
+  // What moves: dashed where it was at the start, whole where it is at the end, and its way between.
+  function moving() {
+    return scene.moving.map(([from, to, r]) => {
+      const [[x, y], [u, v]] = [place(from), place(to)];
+      const ring = `stroke="#5f6b78" stroke-width="1.2"`;
+      return `<circle cx="${x}" cy="${y}" r="${r * scale}" fill="none" ${ring} stroke-dasharray="4 3"/>` +
+        `<circle cx="${u}" cy="${v}" r="${r * scale}" fill="url(#sphere)" ${ring}/>` +
+        line([from, to], "#5f6b78", 1.2, `stroke-dasharray="4 3"`) +
+        `<circle cx="${u}" cy="${v}" r="2.4" fill="#5f6b78"/>`;
+    }).join("");
+  }
+
   // The number of spheres, sorted from far to near, that are painted before the point.
   function layer(p, spheres) {
     for (let k = 0; k < spheres.length; k++) {
@@ -99,7 +111,7 @@
     layers[spheres.length] += `<circle cx="${start[0]}" cy="${start[1]}" r="4" fill="#fff" ` +
       `stroke="#1f2328" stroke-width="1.8"/>` + text(scene.path[0][2][0], "start", -12);
     const defs = still.slice(still.indexOf("<defs>"), still.indexOf("</defs>") + 7);
-    svg.innerHTML = defs + floor() + layers.join("") + legend;
+    svg.innerHTML = defs + floor() + moving() + layers.join("") + legend;
   }
 
   figure.classList.add("turnable");

@@ -36,6 +36,14 @@ pub fn scene(run: &Run, width: f64, height: f64) -> String {
         .obstacles()
         .map(|sphere| format!("[{},{:.5}]", vector(&sphere.centre), sphere.radius))
         .collect();
+    let moving: Vec<String> = scene
+        .moving
+        .iter()
+        .map(|sphere| {
+            let (from, to) = (vector(&sphere.from), vector(&sphere.to));
+            format!("[{from},{to},{:.5}]", sphere.radius)
+        })
+        .collect();
     let targets: Vec<String> = scene
         .targets
         .iter()
@@ -47,13 +55,14 @@ pub fn scene(run: &Run, width: f64, height: f64) -> String {
         data,
         "<script type=\"application/json\" id=\"scene\">{{\"size\":[{width},{height}],\
          \"view\":[{azimuth_deg},{elevation_deg}],\"low\":{},\"high\":{},\"step\":{},\
-         \"base\":{},\"path\":[{}],\"spheres\":[{}],\"targets\":[{}]}}</script>",
+         \"base\":{},\"path\":[{}],\"spheres\":[{}],\"moving\":[{}],\"targets\":[{}]}}</script>",
         vector(&scene.low),
         vector(&scene.high),
         scene.step,
         scene.shows_base,
         path.join(","),
         spheres.join(","),
+        moving.join(","),
         targets.join(","),
     );
     data

@@ -30,13 +30,15 @@ pub fn tasks(run: &Run) -> String {
             body,
             "<tr><td class=\"number\">{}</td><th scope=\"row\">{}</th><td>{}</td><td>{}</td>\
              <td class=\"number\">{}</td><td class=\"number\">{entered}</td>\
-             <td class=\"number\">{}</td><td class=\"number\">{}</td></tr>",
+             <td class=\"number\">{}</td><td class=\"number\">{}</td>\
+             <td class=\"number\">{}</td></tr>",
             nth + 1,
             Escaped(&task.name),
             Escaped(&kind(run, task)),
             goal(task, unit),
             units::optional(result.worst_violation, unit),
-            time(result.active_s),
+            held(result),
+            units::optional(result.largest_crossing, unit),
             units::optional(result.final_error, unit),
         );
     }
@@ -47,14 +49,26 @@ pub fn tasks(run: &Run) -> String {
             ("Name", false),
             ("Measures", false),
             ("Asked", false),
-            ("Worst violation", true),
-            ("Entered set", true),
-            ("Active for", true),
+            ("Violation", true),
+            ("Entered", true),
+            ("Active", true),
+            ("Crossing", true),
             ("Final error", true),
         ],
         &body,
-        "",
+        "<p class=\"note\">Crossing: how much further out, let go, the set would have been at \
+         the end of a period, at most.</p>\n",
     )
+}
+
+/// For how long a set was active, and in how many stretches: `4.2 s, 3 times`.
+fn held(result: &TaskSummary) -> String {
+    let stretches = match result.held_times {
+        None | Some(0) => String::new(),
+        Some(1) => ", once".to_owned(),
+        Some(times) => format!(", {times} times"),
+    };
+    time(result.active_s) + &stretches
 }
 
 fn kind(run: &Run, task: &TaskConfig) -> String {
@@ -64,7 +78,22 @@ fn kind(run: &Run, task: &TaskConfig) -> String {
             let label = quantity::value_label(run, task);
             label.split(" [").next().unwrap_or_default().to_owned()
         }
-        TaskKind::Distance { point_m } => format!("distance to {}", point(&point_m)),
+        TaskKind::Distance {
+            point_m,
+            motion: None,
+        } => format!("distance to {}", point(&point_m)),
+        TaskKind::Distance {
+            point_m,
+            motion: Some(motion),
+        } => {
+            let velocity = point(&motion.velocity_m_per_s);
+            let until = motion.moves_until_s.map(seconds);
+            let until = until.map_or(String::new(), |until| format!(", until {until}"));
+            format!(
+                "distance to a point from {} at {velocity} m/s{until}",
+                point(&point_m)
+            )
+        }
         TaskKind::FieldOfView { .. } => "field of view".to_owned(),
     }
 }
@@ -137,12 +166,11 @@ pub fn timing(run: &Run) -> String {
     let text = format!(
         "<section>\n<h2>Step time and tracking</h2>\n<p>A step of the controller took {} µs \
          (median), {} µs (99 of 100), {} µs (the slowest). {} of the arm's cycles went by without \
-         a reference. The speed limit of a joint slowed the arm in {} ticks.</p>\n",
+         a reference.</p>\n",
         number(time.median, 3),
         number(time.p99, 3),
         number(time.max, 3),
         summary.deadline_misses,
-        summary.speed_limited_ticks,
     );
     let tracking = tracking(run, summary);
     format!("{text}{tracking}</section>\n")
@@ -175,12 +203,12 @@ fn time(t_s: Option<f64>) -> String {
     t_s.map_or_else(|| "–".to_owned(), seconds)
 }
 
-fn section(title: &str, columns: &[(&str, bool)], body: &str, note: &str) -> String {
+pub fn section(title: &str, columns: &[(&str, bool)], body: &str, note: &str) -> String {
     let table = table(columns, body);
     format!("<section>\n<h2>{title}</h2>\n{table}{note}</section>\n")
 }
 
-fn table(columns: &[(&str, bool)], body: &str) -> String {
+pub fn table(columns: &[(&str, bool)], body: &str) -> String {
     let mut head = String::new();
     for &(name, is_number) in columns {
         let class = if is_number { " class=\"number\"" } else { "" };

@@ -73,6 +73,57 @@ fn joints_come_to_their_limits_and_the_ball_is_slid_along() {
 }
 
 #[test]
+fn tool_gives_way_to_the_ball_that_crosses_its_way() {
+    let crossing = run("crossing", "crossing.toml", |text| text);
+    assert!(crossing["tasks"]["ball"]["active_s"].as_f64() > Some(1.0));
+    let closest = crossing["tasks"]["ball"]["min"].as_f64().unwrap();
+    assert!((0.12..0.12 + 1e-4).contains(&closest), "it came: {closest}");
+    // It is drawn where it was at the start and where it came to rest, 5.5 s later.
+    let folder = empty_folder("gallery drawn");
+    let path = gallery().join("crossing.toml");
+    done(
+        &folder,
+        &format!("run {} --robot ideal --quiet --out .", path.display()),
+    );
+    let page = fs::read_to_string(folder.join("report.html")).unwrap();
+    let moving = "\"moving\":[[[0.75000,0.30000,-0.25000],[0.12740,-0.60695,-0.25000],0.12000]]";
+    assert!(page.contains(moving));
+    for label in ["ball, start", "ball, end"] {
+        assert!(page.contains(label), "{label} is not drawn");
+    }
+    for monitor in ["went_outside", "unannounced", "stood_still"] {
+        assert_eq!(
+            crossing["monitors"][monitor]["verdict"], "never",
+            "{monitor}"
+        );
+    }
+}
+
+#[test]
+fn limited_accelerations_bind_and_are_exceeded_for_sets_only() {
+    let limited = run("acceleration", "acceleration-limits.toml", |text| text);
+    let joints = limited["monitors"]["joints"].as_array().unwrap();
+    let bound = |joint: &Value| joint["acceleration_limited_s"].as_f64().unwrap();
+    assert!(joints.iter().map(bound).sum::<f64>() > 0.1, "{joints:?}");
+    let limit = 120_f64.to_radians();
+    // In each tick the joint is told that exceeds its limit most.
+    let times = |joint: &Value| joint["acceleration_exceeded"]["worst"].as_f64().unwrap();
+    let most = joints.iter().map(times).fold(1.0, f64::max);
+    for joint in joints {
+        let hardest = joint["hardest"].as_f64().unwrap();
+        assert!(hardest <= most * limit * (1.0 + 1e-6), "{joint}");
+    }
+    let free = run("acceleration", "acceleration-limits.toml", |text| {
+        let without = text
+            .lines()
+            .filter(|line| !line.starts_with("acceleration"));
+        without.collect::<Vec<_>>().join("\n")
+    });
+    let hardest = free["monitors"]["joints"][0]["hardest"].as_f64();
+    assert!(hardest > joints[0]["hardest"].as_f64(), "{hardest:?}");
+}
+
+#[test]
 fn low_priority_view_is_left_and_comes_back() {
     let summary = run("left", "low-priority-view.toml", |text| text);
     let excess = &summary["properties"]["low_priority_excess"];

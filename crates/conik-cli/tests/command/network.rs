@@ -44,7 +44,7 @@ fn run_drives_an_emulator_in_another_process() {
     assert_eq!(first.status, Some(0), "{first:#?}");
     let log = Rows::of(&folder.join("first"));
     assert_eq!(log.rows.len(), 126);
-    assert!(log.header.ends_with(",q6_measured_rad"));
+    assert!(log.header.ends_with(",q6_measured_rad,why"));
     assert_eq!(
         summary(&folder.join("first"))["settings"]["robot"],
         "127.0.0.1"

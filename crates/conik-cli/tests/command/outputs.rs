@@ -4,7 +4,7 @@ use std::fs;
 
 use serde_json::{Value, json};
 
-use super::process::{conik, done, empty_folder, ended, paper};
+use super::process::{conik, done, empty_folder, ended, paper, repository};
 use super::run_folder::{Rows, summary};
 
 const HEADER: &str = "t_s,mode,active,waypoint,obstacle_a,obstacle_b,view,position_error,\
@@ -26,8 +26,8 @@ fn log_has_one_row_a_tick_under_the_header_of_the_contract() {
     let ideal = Rows::of(&folder.join("ideal"));
     let emulated = Rows::of(&folder.join("emulator"));
 
-    assert_eq!(ideal.header, HEADER);
-    assert_eq!(emulated.header, format!("{HEADER}{MEASURED}"));
+    assert_eq!(ideal.header, format!("{HEADER},why"));
+    assert_eq!(emulated.header, format!("{HEADER}{MEASURED},why"));
     for log in [&ideal, &emulated] {
         assert_eq!(log.rows.len(), 7501);
         log.assert_complete(125.0);
@@ -35,15 +35,18 @@ fn log_has_one_row_a_tick_under_the_header_of_the_contract() {
         assert_eq!(log.rows[7500][0], "60.0");
     }
     for (k, (alone, emulated)) in ideal.rows.iter().zip(&emulated.rows).enumerate() {
+        let (why, alone) = alone.split_last().unwrap();
         assert_eq!(
             *alone,
             emulated[..alone.len()],
             "row {k}: the arm changed the references"
         );
+        assert_eq!(Some(why), emulated.last(), "row {k}");
     }
-    for cell in emulated.rows.iter().flat_map(|row| &row[4..]) {
+    let numbers = |row: &Vec<String>| row[4..row.len() - 1].to_vec();
+    for cell in emulated.rows.iter().flat_map(numbers) {
         let value: f64 = cell.parse().unwrap();
-        assert_eq!(format!("{value:?}"), *cell, "not the shortest form");
+        assert_eq!(format!("{value:?}"), cell, "not the shortest form");
         assert!(value.is_finite());
     }
     let start = [-48.0_f64, -158.0, -108.0, -90.0, -85.0, 0.0];
@@ -55,6 +58,50 @@ fn log_has_one_row_a_tick_under_the_header_of_the_contract() {
             joint + 1
         );
     }
+}
+
+#[test]
+fn log_says_why_each_tick_came_out_as_it_did() {
+    let folder = empty_folder("why");
+    let example = paper("example2");
+    let line = "--robot ideal --mode-rule cone --border land --recursion siciliano-slotine";
+    done(
+        &folder,
+        &format!("run {} {line} --out .", example.display()),
+    );
+    let log = Rows::of(&folder);
+    let text = |name: &str| -> Vec<&str> {
+        let at = log.at(name);
+        log.rows.iter().map(|row| row[at].as_str()).collect()
+    };
+    let (all_active, why) = (text("active"), text("why"));
+    let mut seen = std::collections::BTreeSet::new();
+    for (k, (active, why)) in all_active.iter().zip(&why).enumerate() {
+        let codes: Vec<&str> = why.split('+').filter(|code| !code.is_empty()).collect();
+        let held = codes.iter().filter_map(|code| code.strip_prefix("hold:"));
+        assert_eq!(
+            held.collect::<Vec<_>>().join("+"),
+            *active,
+            "row {k}: {why}"
+        );
+        if active.is_empty() && k > 0 && !all_active[k - 1].is_empty() {
+            assert!(why.contains("free:"), "row {k}: {why}");
+        }
+        seen.extend(
+            codes
+                .iter()
+                .map(|code| code.split(':').next().unwrap().to_owned()),
+        );
+    }
+    // Every code that occurs is explained.
+    let manual = std::fs::read_to_string(repository().join("docs/output.md")).unwrap();
+    for word in &seen {
+        assert!(
+            manual.contains(&format!("| `{word}")),
+            "{word} is not explained"
+        );
+    }
+    assert!(seen.contains("hold") && seen.contains("free") && seen.contains("corrected"));
 }
 
 #[test]

@@ -5,8 +5,10 @@ use std::fmt::Write;
 use std::fs;
 use std::path::PathBuf;
 
+use conik_sim::monitors::{JointMonitor, Monitors, Sighting, Verdict};
 use conik_sim::scenario::{
-    Border, Control, GoalConfig, ModeRule, Recursion, RobotConfig, Scenario, TaskConfig, TaskKind,
+    Border, Control, GoalConfig, LimitsConfig, ModeRule, Recursion, RobotConfig, Scenario,
+    TaskConfig, TaskKind,
 };
 use conik_sim::summary::{
     FORMAT, ModeChange, Outcome, Properties, Property, Settings, StepTime, StepWork, Summary,
@@ -159,10 +161,12 @@ impl Invention {
                 name,
                 kind: TaskKind::Distance {
                     point_m: [0.4, -0.3 + 0.1 * f64::from(n), -0.3],
+                    motion: None,
                 },
                 goal: GoalConfig::Set {
                     min: Some(0.17),
                     max: None,
+                    recovery_per_s: None,
                     gain_per_s: None,
                 },
             })
@@ -198,12 +202,55 @@ impl Invention {
                 goal: GoalConfig::Set {
                     min: None,
                     max: Some(0.2622),
+                    recovery_per_s: None,
                     gain_per_s: Some(1.0),
                 },
             };
             tasks.insert(0, view);
         }
         tasks
+    }
+
+    /// The view was frozen inside for a while, and the first joint's speed limit bound.
+    fn monitors(&self) -> Monitors {
+        let sighting = |verdict| Sighting {
+            verdict,
+            ticks: 0,
+            for_s: 0.0,
+            worst: 0.0,
+            at_s: None,
+            task: None,
+        };
+        let never = sighting(Verdict::Never);
+        let not_watched = sighting(Verdict::NotWatched);
+        let inside = Sighting {
+            verdict: Verdict::Seen,
+            ticks: 125,
+            for_s: 1.0,
+            worst: 0.0123,
+            at_s: Some(1.5),
+            task: Some("view".into()),
+        };
+        let joint = |n| JointMonitor {
+            joint: format!("joint_{n}"),
+            position_limited_s: 0.0,
+            speed_limited_s: if n == 1 { 0.72 } else { 0.0 },
+            acceleration_limited_s: 0.0,
+            acceleration_exceeded: never.clone(),
+            fastest: 3.1,
+            hardest: 40.0,
+        };
+        Monitors {
+            rank_lost: never.clone(),
+            frozen_moves: never.clone(),
+            frozen_inside: inside,
+            stuck: never.clone(),
+            went_outside: not_watched.clone(),
+            unannounced: not_watched.clone(),
+            stood_still: not_watched,
+            mode_changes: never.clone(),
+            joints: (1..=self.joints).map(joint).collect(),
+        }
     }
 
     fn summary(&self) -> Summary {
@@ -242,6 +289,7 @@ impl Invention {
                 scenario: Scenario {
                     title: Some(self.title.clone()),
                     robot: RobotConfig {
+                        limits: LimitsConfig::default(),
                         model: "ur5-paper".into(),
                         q0_rad: vec![0.0; self.joints],
                     },
@@ -290,6 +338,7 @@ impl Invention {
             speed_limited_ticks: 0,
             no_mode_ticks: 0,
             landing: None,
+            monitors: Some(self.monitors()),
             step_work_max: StepWork::default(),
         }
     }

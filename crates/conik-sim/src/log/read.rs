@@ -21,6 +21,8 @@ pub struct Log {
     mode: Vec<Option<u64>>,
     active: Vec<u32>,
     active_sets: Vec<Vec<String>>,
+    why: Vec<u32>,
+    codes: Vec<Vec<String>>,
     truncated: bool,
 }
 
@@ -88,6 +90,12 @@ impl Log {
     /// Which sets were active in each row, as a number into [`Log::active_sets`].
     pub fn active(&self) -> &[u32] {
         &self.active
+    }
+
+    /// The codes of the reasons for what the tick of this row decided: none in a log without them.
+    pub fn why(&self, row: usize) -> &[String] {
+        let codes = self.why.get(row).map(|&id| id as usize);
+        codes.map_or(&[], |id| &self.codes[id])
     }
 
     /// The sets of names that were active at some time, in order of first appearance.
@@ -169,6 +177,7 @@ enum Use {
     Number(usize),
     Mode,
     Active,
+    Why,
     Skip,
 }
 
@@ -181,6 +190,7 @@ struct Reader<'a, R> {
     header: Vec<String>,
     uses: Vec<Use>,
     known_sets: HashMap<String, u32>,
+    known_codes: HashMap<String, u32>,
     log: Log,
 }
 
@@ -193,6 +203,7 @@ impl<'a, R: BufRead> Reader<'a, R> {
             header: Vec::new(),
             uses: Vec::new(),
             known_sets: HashMap::new(),
+            known_codes: HashMap::new(),
             log: Log::default(),
         }
     }
@@ -252,6 +263,8 @@ impl<'a, R: BufRead> Reader<'a, R> {
             self.uses.push(match name.as_str() {
                 "mode" => Use::Mode,
                 "active" => Use::Active,
+                "why" if keep("why") => Use::Why,
+                "why" => Use::Skip,
                 name if name == "t_s" || keep(name) => {
                     self.log.names.push(name.to_owned());
                     self.log.columns.push(Vec::new());
@@ -293,25 +306,26 @@ impl<'a, R: BufRead> Reader<'a, R> {
                     self.log.mode.push(mode);
                 }
                 Use::Active => {
-                    let id = self.set_number(at, cell)?;
-                    self.log.active.push(id);
+                    let known = (&mut self.known_sets, &mut self.log.active_sets);
+                    let id = number_of(known, cell);
+                    self.log
+                        .active
+                        .push(id.ok_or_else(|| self.too_many(at, cell))?);
+                }
+                Use::Why => {
+                    let known = (&mut self.known_codes, &mut self.log.codes);
+                    let id = number_of(known, cell);
+                    self.log
+                        .why
+                        .push(id.ok_or_else(|| self.too_many(at, cell))?);
                 }
             }
         }
         Ok(())
     }
 
-    fn set_number(&mut self, at: usize, cell: &str) -> Result<u32, LogError> {
-        if let Some(&id) = self.known_sets.get(cell) {
-            return Ok(id);
-        }
-        let id = u32::try_from(self.log.active_sets.len())
-            .map_err(|_| self.bad_cell(at, cell, "one of at most 2^32 sets"))?;
-        let names = cell.split('+').filter(|name| !name.is_empty());
-        let names = names.map(str::to_owned).collect();
-        self.log.active_sets.push(names);
-        self.known_sets.insert(cell.to_owned(), id);
-        Ok(id)
+    fn too_many(&self, at: usize, cell: &str) -> LogError {
+        self.bad_cell(at, cell, "one of at most 2^32")
     }
 
     fn parse<T: FromStr>(
@@ -332,6 +346,22 @@ impl<'a, R: BufRead> Reader<'a, R> {
             expected,
         }
     }
+}
+
+/// The number of a list of names joined by `+`: the one it has already, or the next; `None` if there
+/// are no more numbers.
+fn number_of(
+    (known, lists): (&mut HashMap<String, u32>, &mut Vec<Vec<String>>),
+    cell: &str,
+) -> Option<u32> {
+    if let Some(&id) = known.get(cell) {
+        return Some(id);
+    }
+    let id = u32::try_from(lists.len()).ok()?;
+    let names = cell.split('+').filter(|name| !name.is_empty());
+    lists.push(names.map(str::to_owned).collect());
+    known.insert(cell.to_owned(), id);
+    Some(id)
 }
 
 #[cfg(test)]
@@ -359,6 +389,19 @@ mod tests {
         );
         assert!(log.column("view").unwrap()[2].is_nan(), "empty cell");
         assert!(!log.is_truncated());
+    }
+
+    #[test]
+    fn reasons_are_read_where_a_log_has_them() {
+        let with = format!("{},why\n", HEADER.trim_end());
+        let rows = "0,1,,0,0.5,1,2,\n1,1,,0,0.5,1,2,hold:view+speed:q3\n";
+        let log = read(&format!("{with}{rows}")).unwrap();
+        assert_eq!(log.why(0), [""; 0]);
+        assert_eq!(log.why(1), ["hold:view", "speed:q3"]);
+        assert_eq!(log.why(2), [""; 0], "no such row");
+        assert_eq!(log.column("why"), None, "not a column of numbers");
+        let without = read(&format!("{HEADER}0,1,,0,0.5,1,2\n")).unwrap();
+        assert_eq!(without.why(0), [""; 0]);
     }
 
     #[test]

@@ -4,7 +4,7 @@ use std::fs::{File, TryLockError};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 
-use conik::{ActiveSet, ModeOrder, Stack};
+use conik::{ActiveSet, ModeOrder, Reason, Stack};
 
 use crate::record::Record;
 use crate::run::Columns;
@@ -142,7 +142,7 @@ impl Head {
                 write!(out, ",{name}{joint}{unit}")?;
             }
         }
-        writeln!(out)
+        writeln!(out, ",why")
     }
 
     fn write_row(&mut self, out: &mut impl Write, record: &Record) -> io::Result<()> {
@@ -166,7 +166,28 @@ impl Head {
                 write!(out, ",{value:?}")?;
             }
         }
-        writeln!(out)
+        for (nth, reason) in record.reasons.iter().enumerate() {
+            out.write_all(if nth == 0 { b"," } else { b"+" })?;
+            self.write_code(out, reason)?;
+        }
+        let end = if record.reasons.is_empty() {
+            ",\n"
+        } else {
+            "\n"
+        };
+        out.write_all(end.as_bytes())
+    }
+
+    /// What [`Reason::code`] is, without the stack, which the controller has.
+    fn write_code(&self, out: &mut impl Write, reason: &Reason) -> io::Result<()> {
+        out.write_all(reason.word().as_bytes())?;
+        if let Some(task) = reason.task() {
+            write!(out, ":{}", self.task_names[task.index()])?;
+        }
+        if let Some(joint) = reason.joint() {
+            write!(out, ":q{}", joint + 1)?;
+        }
+        Ok(())
     }
 
     /// `number,names`.

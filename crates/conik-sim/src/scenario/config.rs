@@ -2,6 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::motion::Motion;
+
 /// One run: a robot, a start, the settings of the controller and the tasks in decreasing priority.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Scenario {
@@ -23,6 +25,24 @@ pub struct RobotConfig {
     pub model: String,
     /// Joint positions at the start [rad] (scenario files may say `q0_deg` instead).
     pub q0_rad: Vec<f64>,
+    /// Limits that override the model's.
+    #[serde(flatten)]
+    pub limits: LimitsConfig,
+}
+
+/// Limits of the joints, base to tool, that override the model's; `None`: the model's hold. Scenario
+/// files may give them in degrees instead.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct LimitsConfig {
+    /// Least and greatest position of each joint [rad or m]; `None`: that joint has none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub position_limits_rad: Option<Vec<Option<[f64; 2]>>>,
+    /// Greatest speed of each joint [rad/s or m/s].
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub speed_limits_rad_per_s: Option<Vec<f64>>,
+    /// Greatest acceleration of each joint [rad/s² or m/s²].
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub acceleration_limits_rad_per_s2: Option<Vec<f64>>,
 }
 
 /// How the controller works.
@@ -114,8 +134,11 @@ pub enum TaskKind {
     },
     /// Distance of the tool to a point [m].
     Distance {
-        /// The point in the base frame [m].
+        /// The point in the base frame [m], at t = 0 if it moves.
         point_m: [f64; 3],
+        /// How it moves, if it does.
+        #[serde(flatten, skip_serializing_if = "Option::is_none")]
+        motion: Option<Motion>,
     },
     /// Norm of (direction − tool z axis) [-].
     FieldOfView {
@@ -169,6 +192,9 @@ pub enum GoalConfig {
         /// Greatest allowed value.
         #[serde(skip_serializing_if = "Option::is_none")]
         max: Option<f64>,
+        /// Speed [task's unit/s] at which a set of high priority moves in while it is outside.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        recovery_per_s: Option<f64>,
         /// Λ [1/s], needed below the first equality task only.
         #[serde(skip_serializing_if = "Option::is_none")]
         gain_per_s: Option<f64>,

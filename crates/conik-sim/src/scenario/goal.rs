@@ -28,6 +28,7 @@ pub(super) fn look_over(table: &Table, found: &mut Mistakes) -> Option<GoalConfi
         &keys::DESIRED,
         &keys::MIN,
         &keys::MAX,
+        &keys::RECOVERY_PER_S,
         &keys::GAIN_PER_S,
         &keys::ACCEPTANCE_M,
     ] {
@@ -135,7 +136,16 @@ fn read_scalar(
     let desired = table.number(&keys::DESIRED, found);
     let min = table.number(&keys::MIN, found);
     let max = table.number(&keys::MAX, found);
+    let recovery = table.number(&keys::RECOVERY_PER_S, found);
     let is_set = min.is_present() || max.is_present();
+    if recovery.is_present() && desired.is_present() && !is_set {
+        found.add(
+            table.span_of(&keys::RECOVERY_PER_S),
+            table.path_of(&keys::RECOVERY_PER_S),
+            "`recovery_per_s` says how fast a set is entered, and this is an equality task",
+            "remove it; an equality task has `gain_per_s`",
+        );
+    }
     match (desired.is_present(), is_set) {
         (true, true) => {
             contradiction(
@@ -161,10 +171,12 @@ fn read_scalar(
         (false, true) => {
             let min = min.map(Some).or(None);
             let max = max.map(Some).or(None);
+            let recovery = recovery.map(Some).or(None);
             check_limits(table, min.flatten(), max.flatten(), values, found);
             Some(GoalConfig::Set {
                 min: min?,
                 max: max?,
+                recovery_per_s: recovery?,
                 gain_per_s: gain?,
             })
         }

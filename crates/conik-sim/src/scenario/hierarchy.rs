@@ -23,12 +23,25 @@ pub(super) fn check(tasks: &[ReadTask], groups: &[Group], found: &mut Mistakes) 
     }
 }
 
-/// A set-based task below an equality task is driven back with a gain, as an equality task is.
+/// A set-based task below an equality task is driven back with a gain, as an equality task is, and
+/// has no other speed.
 fn check_low_priority_gains(tasks: &[ReadTask], found: &mut Mistakes) {
     let Some(first) = tasks.iter().position(|task| task.role == Role::Equality) else {
         return;
     };
     for task in &tasks[first..] {
+        if let Some(span) = task.recovery.clone().filter(|_| task.role == Role::Set) {
+            found.add(
+                span,
+                place::join(&task.path, keys::RECOVERY_PER_S.name),
+                format!(
+                    "a set below the equality task {} has low priority and is driven in with its \
+                     gain",
+                    tasks[first].path
+                ),
+                "remove it, or move the task above the equality task",
+            );
+        }
         if task.role == Role::Set && !task.has_gain {
             found.add(
                 task.header.clone(),

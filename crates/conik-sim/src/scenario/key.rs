@@ -39,6 +39,8 @@ impl Key {
         match self.holds {
             Holds::Number(range)
             | Holds::JointNumbers(range)
+            | Holds::NumberOrJointNumbers(range)
+            | Holds::JointPairs(range)
             | Holds::Vector(range)
             | Holds::Points(range) => range,
             _ => Range::FINITE,
@@ -71,6 +73,10 @@ pub(super) enum Holds {
     Number(Range),
     /// A number for each joint of the robot.
     JointNumbers(Range),
+    /// One number for all joints of the robot, or one for each.
+    NumberOrJointNumbers(Range),
+    /// For each joint of the robot two numbers, the lesser one first, or none.
+    JointPairs(Range),
     /// Three numbers.
     Vector(Range),
     /// One or more points of three numbers.
@@ -106,6 +112,8 @@ impl Holds {
             }
             Self::Number(_) => "a number",
             Self::JointNumbers(_) => "a list of numbers, one for each joint",
+            Self::NumberOrJointNumbers(_) => "a number, or a list of numbers, one for each joint",
+            Self::JointPairs(_) => "a list of pairs of numbers, one for each joint",
             Self::Vector(_) => "a list of three numbers",
             Self::Points(_) => "a list of points, each of three numbers",
             Self::Joint => "the number of a joint or its name",

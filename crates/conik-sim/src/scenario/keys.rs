@@ -1,8 +1,9 @@
-//! Every key of the scenario file, table by table. To add one, add it here, to the list of its
-//! table, and to the function that reads that table.
+//! Every key of the scenario file, table by table; those of `[robot]` stand in `robot_keys.rs`. To
+//! add one, add it here, to the list of its table, and to the function that reads that table.
 
 use super::config::{Axis, Border, ModeRule, Recursion};
 use super::key::{Holds, Key, Range};
+pub(super) use super::robot_keys::*;
 
 /// Slower than 1 Hz nothing is controlled; no arm takes references faster than 10 kHz.
 const RATE: Range = Range::between(1.0, 10_000.0);
@@ -10,10 +11,6 @@ const RATE: Range = Range::between(1.0, 10_000.0);
 const DURATION: Range = Range::positive(86_400.0);
 /// A day at 500 Hz is 43 million ticks, and its log some 20 GB.
 pub(super) const MOST_TICKS: f64 = 50_000_000.0;
-/// 160 turns; more is a mistake of units.
-const START_RAD: f64 = 1_000.0;
-/// The same in degrees, rounded off.
-const START_DEG: f64 = 57_000.0;
 /// Gains are held to less than twice the control rate besides.
 const GAIN: Range = Range::positive(20_000.0);
 
@@ -50,34 +47,6 @@ pub(super) const TASK: Key = Key::new(
     Holds::Tables,
     "[[task]]",
 );
-
-/// `[robot]`.
-pub(super) const ROBOT_KEYS: &[&Key] = &[&MODEL, &Q0_DEG, &Q0_RAD];
-
-pub(super) const MODEL: Key = Key::new(
-    "model",
-    "",
-    "Name of a built-in robot",
-    Holds::Robot,
-    r#""ur5-paper""#,
-);
-pub(super) const Q0_DEG: Key = Key::new(
-    "q0_deg",
-    "deg",
-    "Joint positions at the start, base to tool (either this or `q0_rad`)",
-    Holds::JointNumbers(Range::within(START_DEG)),
-    "[-48, -158, -108, -90, -85, 0]",
-);
-pub(super) const Q0_RAD: Key = Key::new(
-    "q0_rad",
-    "rad",
-    "Joint positions at the start, base to tool (either this or `q0_deg`)",
-    Holds::JointNumbers(Range::within(START_RAD)),
-    "[-0.84, -2.76, -1.88, -1.57, -1.48, 0]",
-);
-
-/// Keys of `[robot]` that a later version will have.
-pub(super) const ROBOT_KEYS_NOT_YET: &[&str] = &["urdf", "base", "tool"];
 
 /// `[control]`.
 pub(super) const CONTROL_KEYS: &[&Key] = &[
@@ -152,7 +121,7 @@ pub(super) const TYPE: Key = Key::new(
 );
 
 /// What can be asked of a task with one value.
-pub(super) const SCALAR_GOAL: &[&Key] = &[&DESIRED, &MIN, &MAX, &GAIN_PER_S];
+pub(super) const SCALAR_GOAL: &[&Key] = &[&DESIRED, &MIN, &MAX, &RECOVERY_PER_S, &GAIN_PER_S];
 /// What can be asked of a task whose value is a point.
 pub(super) const POINT_GOAL: &[&Key] = &[&WAYPOINTS_M, &ACCEPTANCE_M, &TARGET_M, &GAIN_PER_S];
 
@@ -207,6 +176,15 @@ pub(super) const GAIN_PER_S: Key = Key::new(
     "0.5",
 );
 
+pub(super) const RECOVERY_PER_S: Key = Key::new(
+    "recovery_per_s",
+    "1/s",
+    "Set-based task of high priority: how fast it moves in while it is outside, in the task's unit \
+     per second. Without it, it is only kept from getting worse",
+    Holds::Number(Range::positive(Range::SANE.most)),
+    "0.05",
+);
+
 /// What some task types ask for besides.
 pub(super) const AXIS: Key = Key::new(
     "axis",
@@ -221,6 +199,20 @@ pub(super) const POINT_M: Key = Key::new(
     "The point in the base frame",
     Holds::Vector(Range::SANE),
     "[0.40, -0.25, -0.33]",
+);
+pub(super) const VELOCITY_M_PER_S: Key = Key::new(
+    "velocity_m_per_s",
+    "m/s",
+    "How the point moves in the base frame; `point_m` is where it is at t = 0",
+    Holds::Vector(Range::SANE),
+    "[0, -0.2, 0]",
+);
+pub(super) const MOVES_UNTIL_S: Key = Key::new(
+    "moves_until_s",
+    "s",
+    "When the point comes to rest; without it, it never does",
+    Holds::Number(DURATION),
+    "4",
 );
 pub(super) const DIRECTION: Key = Key::new(
     "direction",

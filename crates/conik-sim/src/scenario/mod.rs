@@ -18,12 +18,15 @@ mod hierarchy;
 mod joints;
 mod key;
 mod keys;
+mod limits;
 mod load;
 mod mistake;
+mod motion;
 mod names;
 mod place;
 mod read;
 mod robot;
+mod robot_keys;
 mod robots;
 mod schema;
 mod suggest;
@@ -36,11 +39,12 @@ mod write;
 
 pub use choice::Choice;
 pub use config::{
-    Axis, Border, Control, GoalConfig, ModeRule, Recursion, RobotConfig, Scenario, TaskConfig,
-    TaskKind,
+    Axis, Border, Control, GoalConfig, LimitsConfig, ModeRule, Recursion, RobotConfig, Scenario,
+    TaskConfig, TaskKind,
 };
 pub use load::{LoadError, MAX_FILE_BYTES};
 pub use mistake::{Mistake, ScenarioErrors};
+pub use motion::Motion;
 pub use robots::{RobotFacts, known_robots};
 pub use schema::schema;
 

@@ -10,8 +10,11 @@ use super::task::{ReadTask, Role};
 
 /// Columns of the log that no task may be named as, besides those of the joints.
 const COLUMNS: &[&str] = &[
-    "t_s", "mode", "active", "waypoint", "tool_x_m", "tool_y_m", "tool_z_m",
+    "t_s", "mode", "active", "waypoint", "tool_x_m", "tool_y_m", "tool_z_m", "why",
 ];
+
+/// How the names of the sets begin that keep the joints' position limits.
+pub(super) const LIMIT: &str = "limit/";
 
 /// Columns of the log for each joint N: what stands before and after the number.
 const JOINT_COLUMNS: &[(&str, &str)] = &[
@@ -72,6 +75,17 @@ pub(super) fn read(table: &Table, found: &mut Mistakes) -> Option<Placed<String>
             format!(
                 "take another name, for example {}",
                 quoted(&format!("task_{name}"))
+            ),
+        );
+    }
+    if name.starts_with(LIMIT) {
+        found.add(
+            placed.span.clone(),
+            &*placed.path,
+            format!("names that begin with `{LIMIT}` belong to the joints' position limits"),
+            format!(
+                "take another name, for example {}",
+                quoted(&name.replacen(LIMIT, "limit_", 1))
             ),
         );
     }

@@ -1,7 +1,9 @@
 //! Reading `[robot]`.
 
 use super::config::RobotConfig;
+use super::key::Key;
 use super::keys;
+use super::limits;
 use super::mistake::Mistakes;
 use super::robots::{RobotFacts, known_robots};
 use super::table::{Entry, Table, unknown_name};
@@ -54,28 +56,46 @@ pub(super) fn read(
     };
     table.refuse_unknown_keys(&keys::ROBOT_KEYS.iter().copied(), not_yet, found);
     let q0_rad = read_start(table, robot, found);
+    let limits = limits::read(table, robot, found);
     Some(RobotConfig {
         model: robot?.name.clone(),
         q0_rad: q0_rad?,
+        limits: limits?,
     })
 }
 
 /// The joint positions at the start, in either unit.
 fn read_start(table: &Table, robot: Option<&RobotFacts>, found: &mut Mistakes) -> Option<Vec<f64>> {
-    let in_rad = table.joint_numbers(&keys::Q0_RAD, robot, found);
     let in_deg = table.joint_numbers(&keys::Q0_DEG, robot, found);
-    if in_rad.is_present() && in_deg.is_present() {
-        found.add(
-            table.span_of(&keys::Q0_RAD),
-            table.path_of(&keys::Q0_RAD),
-            "both `q0_deg` and `q0_rad` are given",
-            "state the start once: remove one of them",
-        );
-        return None;
+    let in_rad = table.joint_numbers(&keys::Q0_RAD, robot, found);
+    let given = in_one_unit(table, &keys::Q0_DEG, in_deg, &keys::Q0_RAD, in_rad, found);
+    let (positions, in_rad) = given.required(table, found)?;
+    Some(positions.into_iter().map(in_rad).collect())
+}
+
+/// Makes radians of an angle in the unit in which it was given.
+type ToRadians = fn(f64) -> f64;
+
+/// What stands under one of two keys, in degrees or in radians, with what makes it radians.
+pub(super) fn in_one_unit<T>(
+    table: &Table,
+    deg: &Key,
+    in_deg: Entry<T>,
+    rad: &Key,
+    in_rad: Entry<T>,
+    found: &mut Mistakes,
+) -> Entry<(T, ToRadians)> {
+    match (in_deg, in_rad) {
+        (in_deg, Entry::Absent(_)) => in_deg.map(|given| (given, f64::to_radians as _)),
+        (Entry::Absent(_), in_rad) => in_rad.map(|given| (given, (|angle| angle) as _)),
+        _ => {
+            found.add(
+                table.span_of(rad),
+                table.path_of(rad),
+                format!("both `{}` and `{}` are given", deg.name, rad.name),
+                "state it once: remove one of them",
+            );
+            Entry::Wrong
+        }
     }
-    if in_rad.is_present() {
-        return in_rad.given();
-    }
-    let degrees = in_deg.required(table, found)?;
-    Some(degrees.into_iter().map(f64::to_radians).collect())
 }

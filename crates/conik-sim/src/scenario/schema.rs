@@ -78,6 +78,16 @@ fn holds(key: &Key) -> Value {
         Holds::JointNumbers(range) => {
             json!({ "type": "array", "items": number(range), "minItems": 1 })
         }
+        Holds::NumberOrJointNumbers(range) => json!({ "anyOf": [
+            number(range),
+            { "type": "array", "items": number(range), "minItems": 1 },
+        ] }),
+        Holds::JointPairs(range) => {
+            let pair =
+                json!({ "type": "array", "items": number(range), "minItems": 2, "maxItems": 2 });
+            let none = json!({ "type": "array", "maxItems": 0 });
+            json!({ "type": "array", "items": { "anyOf": [pair, none] }, "minItems": 1 })
+        }
         Holds::Vector(range) => vector(range),
         Holds::Points(range) => json!({ "type": "array", "items": vector(range), "minItems": 1 }),
         Holds::Joint => json!({ "anyOf": [
@@ -135,19 +145,26 @@ fn robot() -> Value {
     let mut schema = table(keys::ROBOT_KEYS, &[keys::MODEL.name]);
     let start = json!([{ "required": ["q0_deg"] }, { "required": ["q0_rad"] }]);
     set(&mut schema, "oneOf", start);
-    // As many numbers as the robot has joints.
-    let per_robot: Vec<_> = known_robots()
-        .iter()
-        .map(|robot| {
-            let joints = robot.joint_names.len();
-            let start = json!({ "minItems": joints, "maxItems": joints });
-            json!({
-                "if": { "properties": { "model": { "const": robot.name } } },
-                "then": { "properties": { "q0_deg": start, "q0_rad": start } },
+    // As many numbers as the robot has joints. Where one number stands for all, it is no list.
+    let per_robot = known_robots().iter().map(|robot| {
+        let joints = robot.joint_names.len();
+        let lists = keys::IN_TWO_UNITS.iter().flat_map(|(deg, rad)| [deg, rad]);
+        let lists: Map<_, _> = lists
+            .map(|key| {
+                let length = json!({ "minItems": joints, "maxItems": joints });
+                (key.name.to_owned(), length)
             })
+            .collect();
+        json!({
+            "if": { "properties": { "model": { "const": robot.name } } },
+            "then": { "properties": lists },
         })
-        .collect();
-    set(&mut schema, "allOf", json!(per_robot));
+    });
+    let in_one_unit = keys::IN_TWO_UNITS
+        .iter()
+        .map(|(deg, rad)| json!({ "not": { "required": [deg.name, rad.name] } }));
+    let rules: Vec<_> = per_robot.chain(in_one_unit).collect();
+    set(&mut schema, "allOf", json!(rules));
     schema
 }
 
@@ -161,6 +178,7 @@ fn task_of_type(task_type: &TaskType) -> Value {
     let always = keys::TASK_KEYS.iter().chain(task_type.keys);
     let required: Vec<_> = always.map(|key| key.name).collect();
     let mut schema = table(&known, &required);
+    set(&mut schema, "dependencies", task_type.dependencies());
     set(&mut schema, "title", json!(task_type.name));
     set(&mut schema, "description", json!(task_type.about));
     schema["properties"]["type"] = json!({
@@ -179,6 +197,7 @@ fn task_of_type(task_type: &TaskType) -> Value {
             { "required": ["desired", "gain_per_s"], "not": { "anyOf": [
                 { "required": ["min"] },
                 { "required": ["max"] },
+                { "required": ["recovery_per_s"] },
             ] } },
             { "not": { "required": ["desired"] }, "anyOf": [
                 { "required": ["min"] },
@@ -191,6 +210,17 @@ fn task_of_type(task_type: &TaskType) -> Value {
         restrict(&mut schema["properties"], least, most);
     }
     schema
+}
+
+impl TaskType {
+    /// Keys that make sense beside others only.
+    fn dependencies(&self) -> Value {
+        let pairs = self.optional.iter().filter_map(|(key, needed)| {
+            let needed = needed.as_ref()?;
+            Some((key.name.to_owned(), json!([needed.name])))
+        });
+        Value::Object(pairs.collect())
+    }
 }
 
 /// Brings the values that a type can have into its limits and its desired value.

@@ -4,6 +4,7 @@ use std::ops::Range;
 
 use super::config::TaskConfig;
 use super::goal;
+use super::key::Key;
 use super::keys;
 use super::mistake::{Mistakes, quoted};
 use super::names;
@@ -27,6 +28,8 @@ pub(super) struct ReadTask {
     pub(super) header: Range<usize>,
     /// Whether it states a gain.
     pub(super) has_gain: bool,
+    /// Where its speed of recovery stands.
+    pub(super) recovery: Option<Range<usize>>,
     /// Where its waypoints stand.
     pub(super) waypoints: Option<Range<usize>>,
 }
@@ -71,13 +74,17 @@ pub(super) fn read(table: &Table, surroundings: Surroundings, found: &mut Mistak
         config: config(),
         role: role(&table, task_type),
         has_gain: table.has(&keys::GAIN_PER_S),
-        waypoints: table
-            .has(&keys::WAYPOINTS_M)
-            .then(|| table.span_of(&keys::WAYPOINTS_M)),
+        recovery: place_of(&table, &keys::RECOVERY_PER_S),
+        waypoints: place_of(&table, &keys::WAYPOINTS_M),
         name,
         header: table.header.clone(),
         path: table.path,
     }
+}
+
+/// Where the value of a key stands, if it does.
+fn place_of(table: &Table, key: &Key) -> Option<Range<usize>> {
+    table.has(key).then(|| table.span_of(key))
 }
 
 fn role(table: &Table, task_type: Option<&TaskType>) -> Role {
@@ -124,7 +131,7 @@ fn refuse_unknown_keys(table: &Table, task_type: Option<&'static TaskType>, foun
                 .find(|other| other.all_keys().any(|key| key.name == name))?;
             let (this, is_point) = (task_type.name, task_type.goal == GoalShape::Point);
             Some(match name {
-            "min" | "max" if is_point => (
+            "min" | "max" | "recovery_per_s" if is_point => (
                 format!("a task of type {this:?} cannot be a set: its value is a point"),
                 "take type \"coordinate\" to limit one axis, or \"distance\" to keep away from a \
                  point"

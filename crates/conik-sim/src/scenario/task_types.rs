@@ -6,6 +6,7 @@ use super::config::TaskKind;
 use super::key::Key;
 use super::keys;
 use super::mistake::Mistakes;
+use super::motion;
 use super::robots::RobotFacts;
 use super::table::Table;
 use super::write::{text, vector};
@@ -19,6 +20,8 @@ pub(super) struct TaskType {
     pub(super) about: &'static str,
     /// The keys that it needs besides name, type and goal.
     pub(super) keys: &'static [&'static Key],
+    /// The keys that it may have besides, each with the key that it needs beside it.
+    pub(super) optional: &'static [(&'static Key, Option<&'static Key>)],
     /// What can be asked of it.
     pub(super) goal: GoalShape,
     /// Reads what it measures.
@@ -50,6 +53,7 @@ impl TaskType {
             .chain(self.keys)
             .chain(self.goal_keys())
             .copied()
+            .chain(self.optional.iter().map(|(key, _)| *key))
     }
 }
 
@@ -61,6 +65,7 @@ pub(super) const ALL: &[TaskType] = &[
         name: "position",
         about: "Tool position in the base frame [m]; cannot be a set",
         keys: &[],
+        optional: &[],
         goal: GoalShape::Point,
         read: |_, _, _| Some(TaskKind::Position),
     },
@@ -68,6 +73,7 @@ pub(super) const ALL: &[TaskType] = &[
         name: "coordinate",
         about: "One coordinate of the tool position in the base frame [m]",
         keys: &[&keys::AXIS],
+        optional: &[],
         goal: ANY,
         read: |table, _, found| {
             let axis = table.choice(&keys::AXIS, found).required(table, found)?;
@@ -76,18 +82,27 @@ pub(super) const ALL: &[TaskType] = &[
     },
     TaskType {
         name: "distance",
-        about: "Distance of the tool to a point [m]",
+        about: "Distance of the tool to a point [m], which may move",
         keys: &[&keys::POINT_M],
+        optional: &[
+            (&keys::VELOCITY_M_PER_S, None),
+            (&keys::MOVES_UNTIL_S, Some(&keys::VELOCITY_M_PER_S)),
+        ],
         goal: GoalShape::Scalar(0.0, f64::INFINITY),
         read: |table, _, found| {
-            let point_m = table.vector(&keys::POINT_M, found).required(table, found)?;
-            Some(TaskKind::Distance { point_m })
+            let point_m = table.vector(&keys::POINT_M, found).required(table, found);
+            let motion = motion::read(table, found).map(Some).or(None);
+            Some(TaskKind::Distance {
+                point_m: point_m?,
+                motion: motion?,
+            })
         },
     },
     TaskType {
         name: "field_of_view",
         about: "Norm of (direction - tool z axis) [-]: 2 sin(angle / 2), from 0 to 2",
         keys: &[&keys::DIRECTION],
+        optional: &[],
         goal: GoalShape::Scalar(0.0, 2.0),
         read: |table, _, found| {
             let direction = table
@@ -100,6 +115,7 @@ pub(super) const ALL: &[TaskType] = &[
         name: "joint",
         about: "Position of one joint [rad], or [m] if it slides",
         keys: &[&keys::JOINT],
+        optional: &[],
         goal: ANY,
         read: |table, robot, found| {
             let joint = table
@@ -120,7 +136,11 @@ pub(super) fn written(kind: &TaskKind) -> (&'static str, Vec<(&'static str, Stri
     match kind {
         TaskKind::Position => ("position", vec![]),
         TaskKind::Coordinate { axis } => ("coordinate", vec![(keys::AXIS.name, text(axis.name()))]),
-        TaskKind::Distance { point_m } => ("distance", vec![(keys::POINT_M.name, vector(point_m))]),
+        TaskKind::Distance { point_m, motion } => {
+            let mut values = vec![(keys::POINT_M.name, vector(point_m))];
+            values.extend(motion.iter().flat_map(motion::written));
+            ("distance", values)
+        }
         TaskKind::FieldOfView { direction } => (
             "field_of_view",
             vec![(keys::DIRECTION.name, vector(direction))],

@@ -3,7 +3,9 @@
 use std::fmt::Write;
 
 use super::choice::Choice;
-use super::config::{Control, GoalConfig, RobotConfig, Scenario, TaskConfig, TaskKind};
+use super::config::{
+    Control, GoalConfig, LimitsConfig, RobotConfig, Scenario, TaskConfig, TaskKind,
+};
 use super::key::Key;
 use super::keys;
 use super::task_types;
@@ -54,6 +56,27 @@ fn write_robot(robot: &RobotConfig, file: &mut Lines) {
     file.header(&keys::ROBOT);
     file.line(keys::MODEL.name, &text(&robot.model));
     file.line(keys::Q0_RAD.name, &vector(&robot.q0_rad));
+    let LimitsConfig {
+        position_limits_rad,
+        speed_limits_rad_per_s,
+        acceleration_limits_rad_per_s2,
+    } = &robot.limits;
+    if let Some(limits) = position_limits_rad {
+        let pair = |pair: &Option<[f64; 2]>| vector(pair.as_ref().map_or(&[], |pair| &pair[..]));
+        let pairs = list(limits.iter().map(pair));
+        file.line(keys::POSITION_LIMITS_RAD.name, &pairs);
+    }
+    for (key, limits) in [
+        (&keys::SPEED_LIMITS_RAD, speed_limits_rad_per_s),
+        (
+            &keys::ACCELERATION_LIMITS_RAD,
+            acceleration_limits_rad_per_s2,
+        ),
+    ] {
+        if let Some(limits) = limits {
+            file.line(key.name, &vector(limits));
+        }
+    }
 }
 
 fn write_control(control: &Control, file: &mut Lines) {
@@ -103,11 +126,13 @@ fn write_task(task: &TaskConfig, file: &mut Lines) {
         GoalConfig::Set {
             min,
             max,
+            recovery_per_s,
             gain_per_s,
         } => {
             for (key, value) in [
                 (&keys::MIN, min),
                 (&keys::MAX, max),
+                (&keys::RECOVERY_PER_S, recovery_per_s),
                 (&keys::GAIN_PER_S, gain_per_s),
             ] {
                 if let Some(value) = value {

@@ -18,8 +18,8 @@ const SLOW: f64 = 0.02;
 /// held 1e-7 inside.
 const AT_BORDER: f64 = 2e-6;
 
-/// Room that a set which has not been entered is given once.
-const GIVEN_ONCE: f64 = 2e-7;
+/// Room that a set which has not been entered is given once: a margin, and gains too small to follow.
+const GIVEN_ONCE: f64 = 5e-7;
 
 /// What became of a scene.
 #[derive(Clone, Debug, Default)]

@@ -1,6 +1,6 @@
 //! The reasons of a tick, gathered from what the rule and the landing found.
 
-use super::{Controller, MAX_PIVOTS, Rule};
+use super::{Controller, Rule};
 use crate::active::ActiveSet;
 use crate::linalg::dot;
 use crate::reason::Reason;
@@ -10,15 +10,15 @@ use crate::task_id::TaskId;
 
 impl Controller {
     /// Why the tick came out as it did.
-    pub(super) fn explain(&mut self, was_active: &ActiveSet) {
+    pub(super) fn explain(&mut self, was_active: &ActiveSet, is_cut_off: bool) {
         self.step.reasons.clear();
         let active = self.step.active;
         for task in active.iter() {
             let reason = self.why_active(task);
             self.step.add_reason(reason);
         }
-        for task in was_active.iter() {
-            if !active.contains(task) {
+        if *was_active != active {
+            for task in was_active.iter().filter(|&task| !active.contains(task)) {
                 let reason = self.why_let_go(task);
                 self.step.add_reason(reason);
             }
@@ -27,11 +27,17 @@ impl Controller {
             Rule::Search(search) => add_lost(&mut self.step, search.lost()),
             Rule::Nearest(nearest) => add_lost(&mut self.step, nearest.lost()),
         }
+        if self.step.acceleration_exceeded.is_some() {
+            let qdd = self.step.qdd;
+            for exceeded in self.limits.exceeded(&qdd) {
+                self.step.add_reason(Reason::AccelerationExceeded(exceeded));
+            }
+        }
         self.step.explain_motion();
         if self.step.no_mode {
             self.step.add_reason(Reason::NoMode);
         }
-        if self.step.pivots == MAX_PIVOTS {
+        if is_cut_off {
             self.step.add_reason(Reason::OutOfPivots);
         }
     }

@@ -39,9 +39,9 @@ pub struct Controller {
     settings: Settings,
     period: f64,
     /// The robot at q.
-    here: Evaluation,
+    here: Box<Evaluation>,
     /// The robot where the last tick landed: the next q, as a rule.
-    there: Evaluation,
+    there: Box<Evaluation>,
     borders: Borders,
     barrier: Barrier,
     anchor: Anchor,
@@ -56,6 +56,10 @@ pub struct Controller {
 
 /// Pivots that the quadratic programs of one tick may take together.
 pub const MAX_PIVOTS: usize = 60;
+
+/// How many of them the rule must leave for landing: a velocity that cannot be corrected is worth
+/// nothing.
+const LANDING_PIVOTS: usize = 20;
 
 #[derive(Debug)]
 enum Rule {
@@ -133,8 +137,8 @@ impl Controller {
         Ok(Self {
             period,
             settings,
-            here: Evaluation::new(robot, &stack, period),
-            there: Evaluation::new(robot, &stack, period),
+            here: Box::new(Evaluation::new(robot, &stack, period)),
+            there: Box::new(Evaluation::new(robot, &stack, period)),
             borders: Borders::new(&settings, &stack),
             barrier: Barrier::new(&stack, &settings, limits.accelerations()),
             anchor: Anchor::new(stack.dof(), 2 * stack.len()),
@@ -168,9 +172,15 @@ impl Controller {
         }
         self.borders.observe(&self.stack, &self.here);
 
-        let mut pivots = MAX_PIVOTS;
+        let reserved = match self.settings.border {
+            Border::Land => LANDING_PIVOTS,
+            Border::Freeze => 0,
+        };
+        let mut pivots = MAX_PIVOTS - reserved;
         self.raise_barrier(&mut pivots);
         let proposal = self.propose(&mut pivots);
+        let is_cut_off = pivots == 0;
+        pivots += reserved;
         if let Some(joint) = not_finite(&self.qd) {
             return Err(StepError::VelocityNotFinite { joint });
         }
@@ -184,11 +194,14 @@ impl Controller {
 
         let was_active = self.step.active;
         let step = &mut self.step;
-        step.acceleration_exceeded = self.limits.exceeded(&self.qd, &step.qd);
         let changes = step.qdd.iter_mut().zip(step.qd.iter().zip(self.qd.iter()));
         for (qdd, (before, now)) in changes {
             *qdd = (now - before) * self.settings.rate_hz;
         }
+        step.acceleration_exceeded = self
+            .limits
+            .exceeded(&step.qdd)
+            .max_by(|a, b| a.times.total_cmp(&b.times));
         copy(&mut step.q_ref, &self.q_ref);
         copy(&mut step.qd, &self.qd);
         step.speed_limit = speed_limit;
@@ -200,7 +213,7 @@ impl Controller {
         step.landed = landed;
         step.values.copy_from(self.here.values());
         step.errors.copy_from(self.here.errors());
-        self.explain(&was_active);
+        self.explain(&was_active, is_cut_off || pivots == 0);
         Ok(&self.step)
     }
 

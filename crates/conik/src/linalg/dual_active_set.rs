@@ -54,6 +54,8 @@ pub(crate) struct DualActiveSet {
     /// Change of the multipliers along the step at hand, and scratch of the same size.
     slope: Vec<f64>,
     scratch: Vec<f64>,
+    /// Whether the basis is still to be turned for the row that became active last.
+    is_turn_due: bool,
     dof: usize,
     dimension: usize,
 }
@@ -68,6 +70,7 @@ impl DualActiveSet {
             shares: alloc::vec![0.0; dof],
             slope: alloc::vec![0.0; dof],
             scratch: alloc::vec![0.0; dof],
+            is_turn_due: false,
             dof,
             dimension: 0,
         }
@@ -123,6 +126,7 @@ impl DualActiveSet {
         pivots: &mut usize,
     ) -> Solution {
         self.active.clear();
+        self.is_turn_due = false;
         for &i in constraints.equalities {
             match self.enter(x, constraints, i, pivots) {
                 Solution::Optimal => {}
@@ -161,6 +165,7 @@ impl DualActiveSet {
         entering: usize,
         pivots: &mut usize,
     ) -> Solution {
+        self.turn();
         let row = &constraints.rows[entering * self.dof..][..self.dof];
         // An equality that is exceeded is approached from the other side.
         let sign = if constraints.equalities.contains(&entering)
@@ -252,7 +257,7 @@ impl DualActiveSet {
         first
     }
 
-    /// Makes the row at hand active: a reflection turns the free part of the basis until its share
+    /// Makes the row at hand active: a reflection is to turn the free part of the basis until its share
     /// in all but the first of those rows is zero.
     fn append(&mut self, index: usize, multiplier: f64, sign: f64) {
         let (dof, rank) = (self.dof, self.active.len());
@@ -260,17 +265,7 @@ impl DualActiveSet {
         let length = sqrt(dot(free, free));
         let head = if free[0] > 0.0 { -length } else { length };
         free[0] -= head;
-        let squared = dot(free, free);
-        if squared > 0.0 {
-            let rows = &mut self.basis[rank * dof..self.dimension * dof];
-            self.scratch.fill(0.0);
-            for (row, share) in rows.chunks_exact(dof).zip(free.iter()) {
-                add_scaled(&mut self.scratch, *share, row);
-            }
-            for (row, share) in rows.chunks_exact_mut(dof).zip(free.iter()) {
-                add_scaled(row, -2.0 / squared * share, &self.scratch);
-            }
-        }
+        self.is_turn_due = true;
         // The factor is that of the row itself, not of its mirror image.
         let column = &mut self.factor[rank * dof..][..dof];
         for (entry, share) in column.iter_mut().zip(&self.shares[..rank]) {
@@ -279,6 +274,27 @@ impl DualActiveSet {
         column[rank] = sign * head;
         self.active.push(index);
         self.multipliers[rank] = multiplier;
+    }
+
+    /// The reflection that is due for the row that became active last. No other row need follow, and then
+    /// it is never done.
+    fn turn(&mut self) {
+        if !core::mem::take(&mut self.is_turn_due) {
+            return;
+        }
+        let (dof, rank) = (self.dof, self.active.len() - 1);
+        let free = &self.shares[rank..self.dimension];
+        let squared = dot(free, free);
+        if squared > 0.0 {
+            let rows = &mut self.basis[rank * dof..self.dimension * dof];
+            self.scratch.fill(0.0);
+            for (row, share) in rows.chunks_exact(dof).zip(free) {
+                add_scaled(&mut self.scratch, *share, row);
+            }
+            for (row, share) in rows.chunks_exact_mut(dof).zip(free) {
+                add_scaled(row, -2.0 / squared * share, &self.scratch);
+            }
+        }
     }
 
     /// Drops the active row at place `k`; rotations make the factor triangular again.

@@ -133,8 +133,8 @@ impl HeldFit {
         }
         let image = &mut self.image[..count];
         image.fill(0.0);
-        for (share, row) in column.iter().zip(self.shares.chunks_exact(count)) {
-            add_scaled(image, *share, row);
+        for (j, share) in column.iter().enumerate() {
+            add_scaled(image, *share, &self.shares[j * count..][..count]);
         }
         let stiffness = STRICT * STRICT * (dot(column, column) + damped.regular_square(image));
         self.multipliers[k] / stiffness

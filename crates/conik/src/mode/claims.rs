@@ -168,9 +168,22 @@ impl Claims {
             add(level, its);
             multipliers = others;
         }
+        // The level answers only where sides and the levels above leave it free: P C, P = I − those.
+        for row in rows.chunks_exact_mut(self.dof) {
+            self.taken.project_out(row);
+        }
+        transpose(rows, self.dof);
         let price = DEAR * self.period / answer;
         for entry in rows {
             *entry *= price;
+        }
+    }
+}
+
+fn transpose(square: &mut [f64], n: usize) {
+    for i in 0..n {
+        for j in 0..i {
+            square.swap(i * n + j, j * n + i);
         }
     }
 }

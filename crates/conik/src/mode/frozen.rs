@@ -14,6 +14,9 @@ pub(super) fn frozen_rate(
     evaluation: &Evaluation,
     task: TaskId,
 ) -> f64 {
+    if borders.are_at_ease() {
+        return 0.0;
+    }
     let sigma = evaluation.scalar(task);
     let border = borders.sides_at(task, sigma).next();
     let bound_rate = border.map_or(0.0, |side| {

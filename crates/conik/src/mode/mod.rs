@@ -4,6 +4,7 @@
 //! without going through them all; `nearest` finds the one in which nothing is held that would not
 //! leave.
 
+mod asked;
 mod claims;
 mod frozen;
 mod level;

@@ -1,19 +1,21 @@
 //! The rule `cone`: at each level the velocity nearest to what the task asks, among those that keep
 //! every high-priority set.
 //!
-//! Every side of a high-priority set is a row a q̇ ≥ b (see `sides`), and every level a small
-//! quadratic program under those rows (see `level`). Since b ≤ 0, standing still is feasible; the
-//! programs are strictly convex; so one answer exists, and it does not depend on how tasks are
-//! numbered. A set is *active* if its row binds: it would be left if it were released. Nothing is
-//! ever frozen that would not leave.
+//! Every side of a high-priority set is a row a q̇ ≥ b (see `barrier`), and every level a small
+//! quadratic program under those rows (see `level`). Standing still is feasible, b ≤ 0, or where
+//! something in the world moves the `anchor` is; the programs are strictly convex; so one answer
+//! exists, and it does not depend on how tasks are numbered. A set is *active* if its row binds: it
+//! would be left if it were released. Nothing is ever frozen that would not leave.
 //!
-//! A low-priority set is a level of its own. While the velocity of the levels above keeps it, or brings
-//! it closer from outside, it is inactive and only binds the levels below. Otherwise it is active
-//! and asks: inside, to stop at the border; outside, to come back with its gain. Once active outside
-//! it stays so until it is inside, or the levels above bring it back as fast as it asks.
+//! A low-priority set is a level of its own, and active while it asks for something (see `asked`).
+//! Otherwise it only binds the levels below.
+//!
+//! A level claims its rows from the levels below, and a level that is at rest without having what it
+//! asks, its rest (see `claims`).
 
 use alloc::vec::Vec;
 
+use super::asked::{Asked, Asks};
 use super::claims::{Claims, Turn};
 use super::level::{Level, LevelProgram};
 use crate::active::ActiveSet;
@@ -23,20 +25,16 @@ use crate::evaluation::Evaluation;
 use crate::linalg::{Solution, dot};
 use crate::settings::{Recursion, Settings};
 use crate::sides::{Held, Side, Sides};
-use crate::stack::{Goal, Stack};
+use crate::stack::Stack;
 use crate::task_id::TaskId;
 
 /// A side that was held is released when it moves inward faster than this [unit/s]. Rounding alone
 /// must not release it and hold it again.
 const RELEASE: f64 = 1e-7;
 
-/// The same for a set of low priority, whose rate trembles with what holds the levels above.
-const LOW_RELEASE: f64 = 1e-4;
-
 #[derive(Debug)]
 pub(crate) struct Nearest {
     recursion: Recursion,
-    period: f64,
     /// The equality tasks, and the sets below the first of them, in list order.
     lower: Vec<TaskId>,
     program: LevelProgram,
@@ -48,7 +46,7 @@ pub(crate) struct Nearest {
     multipliers: Vec<f64>,
     /// What the levels above the present one have claimed.
     above: Claims,
-    asked: Vec<f64>,
+    asked: Asked,
     /// r: what the last level asked for and did not get.
     unmet: Vec<f64>,
     returning: Vec<usize>,
@@ -81,18 +79,18 @@ impl Nearest {
             .map(|(id, _)| id)
             .filter(|&id| !stack.is_high_priority(id))
             .collect();
+        let period = 1.0 / settings.rate_hz;
         Self {
             recursion: settings.recursion,
-            period: 1.0 / settings.rate_hz,
             program: LevelProgram::new(stack, settings),
             held_before: Held::default(),
             held: Held::default(),
             low_active: ActiveSet::EMPTY,
             multipliers: alloc::vec![0.0; 2 * stack.len() * lower.len()],
             lost: alloc::vec![0; lower.len()],
-            above: Claims::new(stack, &lower, max_rows, 1.0 / settings.rate_hz),
+            above: Claims::new(stack, &lower, max_rows, period),
             lower,
-            asked: Vec::with_capacity(max_rows),
+            asked: Asked::new(max_rows, period),
             unmet: Vec::with_capacity(max_rows),
             returning: Vec::with_capacity(2 * stack.len()),
             crossings: alloc::vec![0.0; 2 * stack.len()],
@@ -111,8 +109,14 @@ impl Nearest {
         let mut level_above: Option<usize> = None;
         for place in 0..self.lower.len() {
             let task = self.lower[place];
-            if !self.ask(tick, task, velocity) {
-                continue;
+            match self.asked.ask(tick, task, velocity, &self.held_before) {
+                Asks::Always => {}
+                Asks::At { side, leaving } => {
+                    self.held.insert(side);
+                    self.low_active.insert(task);
+                    self.crossings[side.number()] = leaving;
+                }
+                Asks::Nothing => continue,
             }
             if let Some(previous) = level_above.replace(place) {
                 self.claim(tick, previous);
@@ -139,60 +143,6 @@ impl Nearest {
         self.held
     }
 
-    /// What a level asks for, into `asked`. `false` for a low-priority set that asks for nothing; its
-    /// sides then bind the levels below.
-    fn ask(&mut self, tick: &mut NearestTick<'_>, task: TaskId, velocity: &[f64]) -> bool {
-        self.asked.clear();
-        match tick.stack[task].goal() {
-            Goal::Equality {
-                desired_rate, gain, ..
-            } => {
-                let errors = tick.evaluation.errors().of(task);
-                let drifts = tick.evaluation.drifts().of(task);
-                let components = errors.iter().zip(desired_rate).zip(drifts);
-                self.asked
-                    .extend(components.map(|((error, rate), drift)| rate + gain * error - drift));
-                true
-            }
-            Goal::Set { interval, gain, .. } => {
-                let (interval, gain) = (*interval, gain.unwrap_or(0.0));
-                let sigma = tick.evaluation.scalar(task);
-                let rate = dot(tick.evaluation.jacobian(tick.stack, task), velocity);
-                for side in Side::both(task) {
-                    let inside = side.inside(&interval, sigma);
-                    let bound_rate = tick.borders.bound_rate(side);
-                    let approaching = side.inward(bound_rate - tick.evaluation.drift(task));
-                    let (rest, back) = if inside < 0.0 {
-                        (0.0, -gain * inside)
-                    } else {
-                        (-inside / self.period, 0.0)
-                    };
-                    let kept = approaching + rest;
-                    let asked = kept + back;
-                    // Not released as soon as the others cease to carry it out: they may do so by turns.
-                    let needed = if self.held_before.contains(side) {
-                        asked + LOW_RELEASE
-                    } else {
-                        kept
-                    };
-                    let rate = side.inward(rate);
-                    if rate < needed {
-                        self.held.insert(side);
-                        self.low_active.insert(task);
-                        self.asked.push(side.inward(asked));
-                        self.crossings[side.number()] = (kept - rate).max(0.0);
-                        return true;
-                    }
-                    if kept > f64::NEG_INFINITY {
-                        tick.barrier
-                            .push(tick.stack, tick.evaluation, side, kept.min(rate));
-                    }
-                }
-                false
-            }
-        }
-    }
-
     /// One level further down: fits the velocity to what the level asks. Where the program has no
     /// answer, the velocity of the levels above stands.
     fn descend(&mut self, tick: &mut NearestTick<'_>, place: usize, velocity: &mut [f64]) {
@@ -211,8 +161,13 @@ impl Nearest {
             .chunks_exact(velocity.len())
             .map(|row| dot(row, velocity));
         self.unmet.clear();
-        self.unmet
-            .extend(self.asked.iter().zip(met).map(|(asked, met)| asked - met));
+        self.unmet.extend(
+            self.asked
+                .rates()
+                .iter()
+                .zip(met)
+                .map(|(asked, met)| asked - met),
+        );
     }
 
     /// The program of a level, after `from`, the velocity of the levels above.
@@ -223,7 +178,7 @@ impl Nearest {
         let multipliers = &self.multipliers[place * 2 * self.tasks..];
         let counting_on = |held: &Held| Level {
             jacobian: evaluation.known_jacobian(task),
-            asked: &self.asked,
+            asked: self.asked.rates(),
             from,
             above: &self.above,
             sides: &barrier.sides,

@@ -1,11 +1,13 @@
 //! What is doubtful about a scenario that is otherwise sound.
 
-use conik::{Frame, Stack, TaskId, Vec3, dependent_tasks};
+mod obstacles;
+
+use conik::{Frame, Goal, Kinematics, Stack, TaskId, dependent_tasks};
 
 use crate::experiment::Experiment;
-use crate::scenario::{
-    Border, Choice, Control, GoalConfig, ModeRule, Recursion, Scenario, TaskConfig, TaskKind,
-};
+use crate::joint_limits::LIMIT;
+use crate::scenario::{Border, Choice, Control, ModeRule, Recursion, Scenario};
+use obstacles::{exclusive_obstacles_that_meet, goals_in_obstacles, obstacles_too_fast, targets};
 
 /// What a look at a scenario found, before anything moves.
 #[derive(Clone, Debug, PartialEq)]
@@ -20,7 +22,7 @@ pub struct Findings {
 
 /// Looks at a scenario at its start.
 pub fn find(scenario: &Scenario, experiment: &Experiment) -> Findings {
-    let mut kinematics = conik::Kinematics::new(&experiment.robot);
+    let mut kinematics = Kinematics::new(&experiment.robot);
     kinematics.update(&experiment.q0);
     let stack = experiment.controller.stack();
     let values: Vec<Vec<f64>> = stack
@@ -36,6 +38,7 @@ pub fn find(scenario: &Scenario, experiment: &Experiment) -> Findings {
     starts_outside(stack, &values, &mut doubts);
     depends(stack, &dependent_tasks(stack, &kinematics), &mut doubts);
     goals_in_obstacles(scenario, &mut doubts);
+    obstacles_too_fast(scenario, experiment, &kinematics, &mut doubts);
     if scenario.control.mode_rule == ModeRule::Cone {
         exclusive_without_effect(&scenario.control, &mut doubts);
     } else {
@@ -105,17 +108,35 @@ fn starts_outside(stack: &Stack, values: &[Vec<f64>], doubts: &mut Vec<String>) 
             continue;
         };
         let (name, outside) = (level.name(), set.violation(value[0]));
-        if outside > 0.0 && stack.is_high_priority(id) {
-            doubts.push(format!(
-                "`{name}` starts {outside:.4} outside its set: it is never driven in, only kept from \
-                 getting worse until the other tasks bring it in"
-            ));
-        } else if outside > 0.0 {
-            doubts.push(format!(
-                "`{name}` starts {outside:.4} outside its set: it is driven in as well as the tasks \
-                 above it allow"
-            ));
+        if !(outside > 0.0) {
+            continue;
         }
+        let place = match name.strip_prefix(LIMIT) {
+            Some(joint) => format!("outside the position limits of {joint}"),
+            None => "outside its set".to_owned(),
+        };
+        let recovery = match level.goal() {
+            Goal::Set { recovery, .. } => *recovery,
+            Goal::Equality { .. } => None,
+        };
+        let becomes = if !stack.is_high_priority(id) {
+            "it is driven in as well as the tasks above it allow".to_owned()
+        } else if let Some(speed) = recovery {
+            let unit = match level.task().unit() {
+                "-" => "1",
+                unit => unit,
+            };
+            format!("it is driven in at {speed} {unit}/s, as far as the other sets allow")
+        } else {
+            let never = "it is never driven in, only kept from getting worse until the other tasks \
+                         bring it in";
+            if name.starts_with(LIMIT) {
+                never.to_owned()
+            } else {
+                format!("{never}; `recovery_per_s` would drive it in")
+            }
+        };
+        doubts.push(format!("`{name}` starts {outside:.4} {place}: {becomes}"));
     }
 }
 
@@ -126,79 +147,6 @@ fn depends(stack: &Stack, dependent: &[TaskId], doubts: &mut Vec<String>) {
              of its own, and it cannot converge there",
             stack[task].name()
         ));
-    }
-}
-
-/// The point of an obstacle and the distance to be kept from it.
-fn obstacle(task: &TaskConfig) -> Option<(Vec3, f64)> {
-    match (&task.kind, &task.goal) {
-        (TaskKind::Distance { point_m }, GoalConfig::Set { min: Some(min), .. }) => {
-            Some(((*point_m).into(), *min))
-        }
-        _ => None,
-    }
-}
-
-/// Where a position task wants the tool, with the name of each place.
-fn targets(scenario: &Scenario) -> Vec<(String, Vec3)> {
-    let mut targets = Vec::new();
-    for task in &scenario.tasks {
-        match (&task.kind, &task.goal) {
-            (TaskKind::Position, GoalConfig::Waypoints { waypoints_m, .. }) => {
-                for (i, &point) in waypoints_m.iter().enumerate() {
-                    targets.push((
-                        format!("waypoint {} of `{}`", i + 1, task.name),
-                        point.into(),
-                    ));
-                }
-            }
-            (TaskKind::Position, GoalConfig::Desired { desired, .. }) => {
-                if let &[x, y, z] = desired.as_slice() {
-                    targets.push((format!("the target of `{}`", task.name), Vec3::new(x, y, z)));
-                }
-            }
-            _ => {}
-        }
-    }
-    targets
-}
-
-fn goals_in_obstacles(scenario: &Scenario, doubts: &mut Vec<String>) {
-    for (target, place) in targets(scenario) {
-        for task in &scenario.tasks {
-            let Some((centre, radius)) = obstacle(task) else {
-                continue;
-            };
-            let distance = (place - centre).norm();
-            if distance < radius {
-                doubts.push(format!(
-                    "{target} is {distance:.4} m from the point of `{}`, which keeps the tool \
-                     {radius} m away: it cannot be reached",
-                    task.name
-                ));
-            }
-        }
-    }
-}
-
-fn exclusive_obstacles_that_meet(scenario: &Scenario, doubts: &mut Vec<String>) {
-    let named = |name: &String| scenario.tasks.iter().find(|task| task.name == *name);
-    for group in &scenario.control.exclusive {
-        let members: Vec<_> = group
-            .iter()
-            .filter_map(named)
-            .filter_map(|task| Some((&task.name, obstacle(task)?)))
-            .collect();
-        for (i, (a, (a_point, a_radius))) in members.iter().enumerate() {
-            for (b, (b_point, b_radius)) in &members[i + 1..] {
-                if (*a_point - *b_point).norm() < a_radius + b_radius {
-                    doubts.push(format!(
-                        "`{a}` and `{b}` are exclusive, but their spheres meet: where both would be \
-                         left at once no mode keeps both, and the arm stands still"
-                    ));
-                }
-            }
-        }
     }
 }
 

@@ -1,0 +1,126 @@
+//! Whether every sample outside a set was announced by the tick before it.
+//!
+//! Where a point moves, a set may be left because no velocity within the limits keeps it. Border `land`
+//! then says in that very tick that the next sample will be outside, and by how much at most.
+
+use conik::{Stack, Step, TaskId};
+
+/// What is less is the rounding of a point that moves [task's unit].
+const ROUNDING: f64 = 1e-12;
+
+/// Watches the samples of a run.
+#[derive(Clone, Debug)]
+pub struct Announcements {
+    entered: Vec<bool>,
+    /// By how much the last tick said that this one would be outside.
+    announced: f64,
+    unannounced: Unannounced,
+}
+
+/// Samples outside a set that had been entered, of which the tick before said nothing.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Unannounced {
+    /// How many.
+    pub ticks: u64,
+    /// How far outside the worst of them was [task's unit].
+    pub worst: f64,
+    /// When that was [s].
+    pub at_s: Option<f64>,
+    /// Which set it was.
+    pub task: Option<TaskId>,
+}
+
+impl Announcements {
+    /// For a run of this stack.
+    pub fn new(stack: &Stack) -> Self {
+        Self {
+            entered: vec![false; stack.len()],
+            announced: 0.0,
+            unannounced: Unannounced::default(),
+        }
+    }
+
+    /// Takes in one tick: the state at `t_s` [s], before the step.
+    pub fn observe(&mut self, stack: &Stack, step: &Step, t_s: f64) {
+        for (id, level) in stack.iter() {
+            let Some(set) = level.interval() else { break };
+            let violation = set.violation(step.value(id)[0]);
+            let entered = &mut self.entered[id.index()];
+            if *entered && violation > self.announced + ROUNDING {
+                self.unannounced.add(violation, t_s, id);
+            }
+            *entered |= violation <= 0.0;
+        }
+        self.announced = step.landed.outside.map_or(0.0, |outside| outside.by);
+    }
+
+    /// What was seen so far.
+    pub fn unannounced(&self) -> Unannounced {
+        self.unannounced
+    }
+}
+
+impl Unannounced {
+    fn add(&mut self, violation: f64, t_s: f64, task: TaskId) {
+        self.ticks += 1;
+        if violation > self.worst {
+            self.worst = violation;
+            self.at_s = Some(t_s);
+            self.task = Some(task);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use conik::{Controller, Distance, Frame, JointVec, Robot, Settings, Vec3};
+
+    use super::*;
+
+    /// An obstacle of 0.1 m beside a tool at rest that moves towards it at `speed` [m/s], or jumps.
+    fn watch(speed: f64, jump: bool) -> (Unannounced, usize) {
+        let robot = Robot::builtin("ur5-paper").expect("built in");
+        let mut q = JointVec::from([-0.84, -2.76, -1.88, -1.57, -1.48, 0.0]);
+        let mut kinematics = conik::Kinematics::new(&robot);
+        kinematics.update(&q);
+        let tool = kinematics.base_from(Frame::Tool).origin;
+        let mut stack = Stack::new(&robot);
+        let task = Distance::of_tool_to(tool + Vec3::new(0.15, 0.0, 0.0));
+        let id = stack.set("ball", task, 0.1..).expect("sound");
+        let settings = Settings::at_rate(125.0);
+        let mut controller = Controller::new(&robot, stack, settings).expect("sound");
+        let mut announcements = Announcements::new(controller.stack());
+        let mut outside = 0;
+        for tick in 0..40 {
+            let t_s = f64::from(tick) / 125.0;
+            let away = if jump && tick >= 20 {
+                0.05
+            } else {
+                0.15 - speed * t_s
+            };
+            let point = tool + Vec3::new(away, 0.0, 0.0);
+            let mut setpoints = controller.setpoints();
+            let ball = setpoints.task_mut::<Distance>(id).expect("a distance");
+            ball.set_point_moving(point, [-speed, 0.0, 0.0]);
+            let step = controller.step(&q).expect("finite");
+            outside += usize::from(step.value(id)[0] < 0.1 - 1e-12);
+            q = step.q_ref;
+            let step = step.clone();
+            announcements.observe(controller.stack(), &step, t_s);
+        }
+        (announcements.unannounced(), outside)
+    }
+
+    #[test]
+    fn obstacle_that_is_too_fast_is_announced_and_one_that_jumps_is_not() {
+        let (slow, outside) = watch(0.2, false);
+        assert_eq!((slow, outside), (Unannounced::default(), 0));
+        let (fast, outside) = watch(8.0, false);
+        assert!(outside > 0, "nothing can avoid it");
+        assert_eq!(fast, Unannounced::default());
+        let (jumped, _) = watch(0.0, true);
+        assert_eq!(jumped.ticks, 1);
+        assert!((jumped.worst - 0.05).abs() < 1e-6, "{jumped:?}");
+        assert_eq!(jumped.at_s, Some(0.16));
+    }
+}

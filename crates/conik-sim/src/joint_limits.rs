@@ -1,0 +1,110 @@
+//! Limits of the joints: those of the model or of the scenario, and the sets that keep the positions.
+
+use conik::{Robot, RobotError};
+
+use crate::scenario::{GoalConfig, LimitsConfig, RobotConfig, Scenario, TaskConfig, TaskKind};
+
+/// How the names of the sets begin that keep the joints within their position limits.
+pub const LIMIT: &str = "limit/";
+
+impl Scenario {
+    /// Every task that the controller has, the most important first: the sets that keep the joints'
+    /// position limits, which no scenario lists, then those of the scenario.
+    pub fn all_tasks(&self) -> Vec<TaskConfig> {
+        let robot = limited_robot(&self.robot);
+        let joints = robot.iter().flat_map(Robot::joints).enumerate();
+        let limits = joints.filter_map(|(index, joint)| {
+            let (min, max) = joint.limits.position?;
+            Some(TaskConfig {
+                name: format!("{LIMIT}{}", joint.name),
+                kind: TaskKind::Joint { joint: index + 1 },
+                goal: GoalConfig::Set {
+                    min: min.is_finite().then_some(min),
+                    max: max.is_finite().then_some(max),
+                    recovery_per_s: None,
+                    gain_per_s: None,
+                },
+            })
+        });
+        limits.chain(self.tasks.iter().cloned()).collect()
+    }
+}
+
+/// The model, with the scenario's limits in the place of its own.
+pub(crate) fn limited_robot(config: &RobotConfig) -> Result<Robot, RobotError> {
+    let model = Robot::builtin(&config.model)?;
+    let LimitsConfig {
+        position_limits_rad,
+        speed_limits_rad_per_s,
+        acceleration_limits_rad_per_s2,
+    } = &config.limits;
+    let mut joints = model.joints().to_vec();
+    for (index, joint) in joints.iter_mut().enumerate() {
+        if let Some(limits) = position_limits_rad {
+            let pair = limits.get(index).copied().flatten();
+            joint.limits.position = pair.map(|[min, max]| (min, max));
+        }
+        if let Some(limits) = speed_limits_rad_per_s {
+            joint.limits.speed = limits.get(index).copied();
+        }
+        if let Some(limits) = acceleration_limits_rad_per_s2 {
+            joint.limits.acceleration = limits.get(index).copied();
+        }
+    }
+    Robot::from_joints(model.name(), joints)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::experiment::Experiment;
+
+    const SCENARIO: &str = r#"
+        [robot]
+        model = "ur5-paper"
+        q0_rad = [0, 0.5, 1, 0, 0, 0]
+        position_limits_deg = [[-90, 90], [], [-180, 180], [], [], []]
+        speed_limits_deg_per_s = 90
+        acceleration_limits_rad_per_s2 = [1, 2, 3, 4, 5, 6]
+        [[task]]
+        name = "ball"
+        type = "distance"
+        point_m = [1, 0, 0]
+        min = 0.1
+    "#;
+
+    #[test]
+    fn scenario_s_limits_stand_in_the_place_of_the_model_s() {
+        let scenario = Scenario::from_toml(SCENARIO).expect("it is right");
+        let robot = limited_robot(&scenario.robot).expect("it is right");
+        let limits: Vec<_> = robot.joints().iter().map(|joint| joint.limits).collect();
+        let turn = std::f64::consts::PI;
+        assert_eq!(limits[0].position, Some((-turn / 2.0, turn / 2.0)));
+        assert_eq!(limits[1].position, None);
+        assert!(limits.iter().all(|limits| limits.speed == Some(turn / 2.0)));
+        assert_eq!(limits[5].acceleration, Some(6.0));
+        let model = Robot::builtin("ur5-paper").expect("built in");
+        let bare = SCENARIO.lines().filter(|line| !line.contains("limits"));
+        let bare = Scenario::from_toml(&bare.collect::<Vec<_>>().join("\n")).expect("right");
+        assert_eq!(limited_robot(&bare.robot).expect("right"), model);
+    }
+
+    #[test]
+    fn all_tasks_are_those_of_the_controller() {
+        let scenario = Scenario::from_toml(SCENARIO).expect("it is right");
+        let experiment = Experiment::new(&scenario).expect("it is right");
+        let stack = experiment.controller.stack();
+        let tasks = scenario.all_tasks();
+        assert_eq!(tasks.len(), 3);
+        for ((_, level), task) in stack.iter().zip(&tasks) {
+            assert_eq!(level.name(), task.name);
+            let interval = level.interval().expect("sets only");
+            let GoalConfig::Set { min, max, .. } = task.goal else {
+                panic!("{} is a set", task.name);
+            };
+            assert_eq!(interval.min, min.unwrap_or(f64::NEG_INFINITY));
+            assert_eq!(interval.max, max.unwrap_or(f64::INFINITY));
+        }
+        assert_eq!(stack.len(), tasks.len());
+    }
+}

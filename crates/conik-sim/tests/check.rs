@@ -1,0 +1,96 @@
+//! What a look at a scenario finds doubtful, before anything moves.
+
+use conik_sim::check::find;
+use conik_sim::experiment::Experiment;
+use conik_sim::scenario::Scenario;
+
+/// A scenario with a ball that the tool, at (0.2546, -0.4564, -0.2319) m, starts outside of.
+const SOUND: &str = r#"
+[robot]
+model = "ur5-paper"
+q0_deg = [-48, -158, -108, -90, -85, 0]
+speed_limits_rad_per_s = 1
+[[task]]
+name = "ball"
+type = "distance"
+point_m = [0.25, 0.2, -0.23]
+min = 0.1
+[[task]]
+name = "position"
+type = "position"
+target_m = [0.25, -0.45, -0.23]
+gain_per_s = 1
+"#;
+
+fn doubts(good: &str, other: &str) -> Vec<String> {
+    assert!(SOUND.contains(good), "{good}");
+    let scenario = Scenario::from_toml(&SOUND.replace(good, other)).expect("it is right");
+    let experiment = Experiment::new(&scenario).expect("it is right");
+    find(&scenario, &experiment).doubts
+}
+
+/// The one doubt, in which each part stands.
+fn assert_doubted(good: &str, other: &str, parts: &[&str]) {
+    let doubts = doubts(good, other);
+    assert_eq!(doubts.len(), 1, "{other}: {doubts:?}");
+    for part in parts {
+        assert!(doubts[0].contains(part), "{part}: {doubts:?}");
+    }
+}
+
+#[test]
+fn sound_scenario_is_not_doubtful() {
+    assert_eq!(doubts("min", "min"), [""; 0]);
+}
+
+#[test]
+fn start_outside_a_set_is_doubted_with_and_without_recovery() {
+    let outside = "point_m = [0.25, -0.4, -0.23]";
+    let point = "point_m = [0.25, 0.2, -0.23]";
+    let doubts_of = |other: &str| doubts(point, other);
+    // The target is in the ball too; that is another doubt.
+    let without = doubts_of(outside);
+    assert!(without[0].contains("never driven in"), "{without:?}");
+    assert!(without[0].contains("`recovery_per_s` would"), "{without:?}");
+    let with = doubts_of(&format!("{outside}\nrecovery_per_s = 0.05"));
+    assert!(with[0].contains("it is driven in at 0.05 m/s"), "{with:?}");
+    assert!(!with[0].contains("never"), "{with:?}");
+}
+
+#[test]
+fn start_outside_position_limits_is_doubted() {
+    assert_doubted(
+        "speed_limits_rad_per_s = 1",
+        "position_limits_deg = [[], [], [-90, 90], [], [], []]",
+        &["`limit/elbow_joint` starts 0.3142 outside the position limits of elbow_joint"],
+    );
+}
+
+#[test]
+fn obstacle_is_doubted_that_is_faster_than_the_tool() {
+    let point = "point_m = [0.25, 0.2, -0.23]";
+    let moving = |speed: &str| format!("{point}\nvelocity_m_per_s = [0, {speed}, 0]");
+    assert_eq!(doubts(point, &moving("-0.2")), [""; 0]);
+    assert_eq!(doubts(point, &moving("0")), [""; 0], "at rest");
+    assert_doubted(
+        point,
+        &moving("-9"),
+        &["`ball` moves at 9.000 m/s", "the tool can move"],
+    );
+}
+
+#[test]
+fn target_in_an_obstacle_is_doubted_where_that_comes_to_rest() {
+    let point = "point_m = [0.25, 0.2, -0.23]";
+    let moving = "velocity_m_per_s = [0, -0.2, 0]";
+    assert_eq!(
+        doubts(point, &format!("{point}\n{moving}")),
+        [""; 0],
+        "it goes on"
+    );
+    assert_doubted(
+        point,
+        &format!("{point}\n{moving}\nmoves_until_s = 3"),
+        &["the target of `position` is 0.0500 m from the point of `ball`"],
+    );
+}
