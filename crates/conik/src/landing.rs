@@ -8,8 +8,8 @@
 //! **Every sample is inside.** By induction over ticks, for sets and bounds that do not move. Let q be
 //! inside every bound in force; for sets entered, those are the sets. (1) Each way out of
 //! [`Landing::land`] commits either a point whose values were computed and found inside every bound
-//! in force, or q itself. (2) The next tick computes the same values from the same bits, so it finds
-//! them inside too. (3) Bounds in force only ever tighten, towards the set, and never past the
+//! in force, or q itself. (2) The next tick uses these values, or computes the same from the same bits, so
+//! it finds them inside too. (3) Bounds in force only ever tighten, towards the set, and never past the
 //! present value ([`Borders`](crate::border::Borders)). Hence the next q is inside, exactly: no
 //! tolerance, any rate, any rule, any recursion, any number of sets. Nothing is said about the time
 //! between samples. `docs/method.md` goes through the steps one by one.

@@ -111,6 +111,8 @@ impl Level {
 pub struct Stack {
     dof: usize,
     levels: Vec<Level>,
+    /// How often tasks' own parameters may have been changed.
+    revision: u64,
 }
 
 impl Stack {
@@ -146,6 +148,7 @@ impl Stack {
         Self {
             dof: robot.dof(),
             levels: Vec::new(),
+            revision: 0,
         }
     }
 
@@ -325,6 +328,12 @@ impl Stack {
     #[inline]
     pub fn is_high_priority(&self, task: TaskId) -> bool {
         task.index() < self.first_equality()
+    }
+
+    /// Another number after every access that may have changed a task's own parameters.
+    #[inline]
+    pub(crate) fn revision(&self) -> u64 {
+        self.revision
     }
 
     /// Index of the first equality task; the number of tasks if there is none.

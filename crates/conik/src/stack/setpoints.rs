@@ -106,6 +106,7 @@ impl Setpoints<'_> {
 
     /// A task as its own type, to change its parameters; `None` if it is of another type.
     pub fn task_mut<T: Task>(&mut self, task: TaskId) -> Option<&mut T> {
+        self.stack.revision = self.stack.revision.wrapping_add(1);
         let task: &mut dyn Any = &mut *self.stack.levels[task.index()].task;
         task.downcast_mut()
     }
