@@ -73,14 +73,14 @@ impl Barrier {
 
     /// Gathers, into an empty barrier, the sides of the high-priority sets.
     pub(crate) fn gather(&mut self, stack: &Stack, borders: &Borders, evaluation: &mut Evaluation) {
-        for (task, level) in stack.iter() {
+        for (task, level) in stack.high_priority_sets() {
             let Goal::Set {
                 interval, recovery, ..
             } = level.goal()
             else {
                 break;
             };
-            let sigma = evaluation.scalar(task);
+            let (sigma, steepness) = (evaluation.scalar(task), evaluation.steepness(task));
             for side in Side::both(task) {
                 let inside = side.inside(borders.interval(task), sigma);
                 let Some(bound) = self.bound(inside) else {
@@ -88,7 +88,7 @@ impl Barrier {
                 };
                 let approaching = side.inward(borders.bound_rate(side) - evaluation.drift(task));
                 let outside = -side.inside(interval, sigma);
-                let horizon = -(bound + approaching) / evaluation.steepness(stack, task);
+                let horizon = -(bound + approaching) / steepness;
                 if horizon > NEAR && outside <= 0.0 && self.braking.is_none() {
                     self.far.push((side, bound + approaching));
                     self.horizon = self.horizon.min(horizon);

@@ -24,6 +24,7 @@ pub(crate) struct Evaluation {
     jacobian_known: ActiveSet,
     /// Which tasks these are: their parameters have been changed so many times.
     revision: Option<u64>,
+    steepness: Vec<f64>,
     /// The sets that stand still while the robot does, and whether their values are known where it is.
     /// So what landing computes at q + T q̇ serves the tick that begins there.
     still: Vec<TaskId>,
@@ -47,6 +48,7 @@ impl Evaluation {
                 .collect(),
             jacobian_known: ActiveSet::EMPTY,
             revision: None,
+            steepness: alloc::vec![f64::INFINITY; stack.len()],
             still: Vec::with_capacity(stack.len()),
             is_still_known: false,
             others: Vec::with_capacity(stack.len()),
@@ -65,8 +67,9 @@ impl Evaluation {
     }
 
     /// How fast the value of a task can change, see [`Task::steepness`](crate::Task::steepness).
-    pub(crate) fn steepness(&self, stack: &Stack, task: TaskId) -> f64 {
-        stack[task].task().steepness(self.kinematics.reach())
+    #[inline]
+    pub(crate) fn steepness(&self, task: TaskId) -> f64 {
+        self.steepness[task.index()]
     }
 
     /// Whether the robot is at `q`.
@@ -150,6 +153,7 @@ impl Evaluation {
             let is_moving = level.task().is_moving();
             self.is_any_drifting |= is_moving;
             self.drifts.of_mut(id).fill(0.0);
+            self.steepness[id.index()] = level.task().steepness(self.kinematics.reach());
             if is_moving || level.interval().is_none() {
                 self.others.push(id);
             } else {

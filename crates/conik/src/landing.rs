@@ -302,7 +302,7 @@ impl Landing {
             for side in Side::both(task).into_iter().filter(bounded) {
                 let bound = landing_rate(side.inside(&next, sigma), self.period);
                 let is_held = approach.held.contains(side) && !is_shortened;
-                let horizon = -bound / approach.here.steepness(approach.stack, task);
+                let horizon = -bound / approach.here.steepness(task);
                 if horizon > near && !is_held {
                     self.horizon = self.horizon.min(horizon);
                     continue;
