@@ -192,6 +192,17 @@ impl Evaluation {
         self.values.of(task)[0]
     }
 
+    /// σ of the first `count` tasks, each of one component.
+    #[inline]
+    pub(crate) fn scalars(&self, count: usize) -> &[f64] {
+        self.values.first(count)
+    }
+
+    /// Whether any task moves by itself.
+    pub(crate) fn is_any_drifting(&self) -> bool {
+        self.is_any_drifting
+    }
+
     /// J of a task for which it was asked before.
     pub(crate) fn known_jacobian(&self, task: TaskId) -> &[f64] {
         debug_assert!(self.jacobian_known.contains(task));

@@ -115,6 +115,8 @@ pub struct Stack {
     high_priority: usize,
     /// How often tasks' own parameters may have been changed.
     revision: u64,
+    /// How often what is asked of sets may have been changed.
+    set_revision: u64,
 }
 
 impl Stack {
@@ -153,6 +155,7 @@ impl Stack {
             levels: Vec::new(),
             high_priority: 0,
             revision: 0,
+            set_revision: 0,
         }
     }
 
@@ -343,6 +346,12 @@ impl Stack {
     #[inline]
     pub fn is_high_priority(&self, task: TaskId) -> bool {
         task.index() < self.high_priority
+    }
+
+    /// Another number after every change of what is asked of a set.
+    #[inline]
+    pub(crate) fn set_revision(&self) -> u64 {
+        self.set_revision
     }
 
     /// Another number after every access that may have changed a task's own parameters.
