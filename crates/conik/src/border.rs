@@ -171,6 +171,21 @@ impl Borders {
         if side.is_upper { max } else { min }
     }
 
+    /// Whether the bounds in force will stay what they are; with `Land`, they are the sets.
+    pub(crate) fn are_settled(&self) -> bool {
+        self.settled.is_some()
+    }
+
+    /// Number of sets above the first equality task.
+    pub(crate) fn high_priority(&self) -> usize {
+        self.high_priority
+    }
+
+    /// The bounds in force for every task.
+    pub(crate) fn intervals(&self) -> &[Interval] {
+        &self.intervals
+    }
+
     /// The sides at whose border, or outside of which, a value is.
     pub(crate) fn sides_at(&self, task: TaskId, sigma: f64) -> impl Iterator<Item = Side> {
         let set = self.with_band(task);

@@ -72,6 +72,11 @@ impl Evaluation {
         self.steepness[task.index()]
     }
 
+    /// [`steepness`](Self::steepness) of every task.
+    pub(crate) fn steepnesses(&self) -> &[f64] {
+        &self.steepness
+    }
+
     /// Whether the robot is at `q`.
     pub(crate) fn is_at(&self, q: &[f64]) -> bool {
         **self.kinematics.q() == *q
