@@ -16,6 +16,7 @@ const MOST_SETS: usize = 256;
 pub(super) fn check(tasks: &[ReadTask], groups: &[Group], found: &mut Mistakes) {
     names::check_unique(tasks, found);
     check_low_priority_gains(tasks, found);
+    check_high_priority_damping(tasks, found);
     check_one_has_waypoints(tasks, found);
     check_number_of_sets(tasks, found);
     for group in groups {
@@ -54,6 +55,22 @@ fn check_low_priority_gains(tasks: &[ReadTask], found: &mut Mistakes) {
                     "{}, or move the task above it",
                     keys::GAIN_PER_S.write_example()
                 ),
+            );
+        }
+    }
+}
+
+/// A set-based task above every equality task is kept exactly, and is no level that could be damped.
+fn check_high_priority_damping(tasks: &[ReadTask], found: &mut Mistakes) {
+    // Below a task that may be meant as an equality task nothing is sure.
+    let high = tasks.iter().take_while(|task| task.role == Role::Set);
+    for task in high {
+        if let Some(span) = task.damping.clone() {
+            found.add(
+                span,
+                place::join(&task.path, keys::DAMPING.name),
+                "a set above every equality task has high priority: it is kept, never damped",
+                "remove it; equality tasks and the sets below one have `damping`",
             );
         }
     }
