@@ -11,6 +11,7 @@ mod level;
 mod nearest;
 mod order;
 mod search;
+mod tremor;
 
 pub(crate) use nearest::{Nearest, NearestTick};
 pub use order::ModeOrder;
