@@ -58,6 +58,21 @@ pub struct Outputs {
     pub speed_slider: f64,
     pub phase: i32,
     pub session: i32,
+    pub actual_q: Option<[f64; 6]>,
+    /// What the link comes to.
+    pub link: LinkEnd,
+}
+
+/// What the link comes to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum LinkEnd {
+    None,
+    /// The controller closes the connection.
+    Closed,
+    /// It reads on, but says nothing any more.
+    Silent,
+    /// It sends what is no package.
+    Garbage,
 }
 
 pub struct Stub {
@@ -125,6 +140,8 @@ fn serve(behaviour: &Behaviour, listener: &TcpListener, sessions: &Receiver<i32>
         speed_slider: 1.0,
         phase: 0,
         session: 0,
+        actual_q: None,
+        link: LinkEnd::None,
     };
     while let Some((kind, payload)) = read_package(&mut stream) {
         let mut replies = Vec::new();
@@ -157,7 +174,12 @@ fn serve(behaviour: &Behaviour, listener: &TcpListener, sessions: &Receiver<i32>
                 let inputs = read_inputs(&payload);
                 react(&mut outputs, behaviour, &inputs, sessions);
                 written.push(inputs);
-                push_outputs(&mut replies, behaviour, &mut outputs);
+                match outputs.link {
+                    LinkEnd::None => push_outputs(&mut replies, behaviour, &mut outputs),
+                    LinkEnd::Closed => return written,
+                    LinkEnd::Silent => {}
+                    LinkEnd::Garbage => replies.push((b'?', vec![0; 5])),
+                }
             }
             other => panic!("the driver sent a package of type {other}"),
         }
@@ -200,8 +222,9 @@ fn push_outputs(replies: &mut Vec<(u8, Vec<u8>)>, behaviour: &Behaviour, outputs
         outputs.timestamp += 0.008;
         let mut bytes = vec![1];
         bytes.extend(outputs.timestamp.to_be_bytes());
-        for _ in 0..2 {
-            bytes.extend(behaviour.q.iter().flat_map(|angle| angle.to_be_bytes()));
+        let actual = outputs.actual_q.unwrap_or(behaviour.q);
+        for q in [behaviour.q, actual] {
+            bytes.extend(q.iter().flat_map(|angle| angle.to_be_bytes()));
         }
         bytes.extend([0; 48]);
         bytes.extend(outputs.runtime_state.to_be_bytes());
