@@ -14,6 +14,11 @@ pub const SCRIPT_PORT: u16 = 30002;
 /// acceleration limit is set.
 pub const SPEED_CHANGE_ALLOWED: f64 = 0.75;
 
+/// An offset with which a port would be none.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("--port-offset: no port may exceed 65535")]
+pub struct BadPortOffset;
+
 /// Where the controller is and how it is to be driven.
 #[derive(Clone, Debug, PartialEq)]
 pub struct UrConfig {
@@ -86,5 +91,13 @@ impl UrConfig {
             program_timeout: Duration::from_secs(5),
             stop_timeout: Duration::from_secs(3),
         }
+    }
+
+    /// Adds `offset` to every port, as an emulator beside others has it.
+    pub fn offset_ports(&mut self, offset: u16) -> Result<(), BadPortOffset> {
+        for port in [&mut self.rtde_port, &mut self.script_port] {
+            *port = port.checked_add(offset).ok_or(BadPortOffset)?;
+        }
+        Ok(())
     }
 }

@@ -68,15 +68,11 @@ impl Link {
         let status = subscribe(
             &mut session,
             config,
-            plan::controller_rate(config, version) / every,
+            plan::output_frequency(plan::controller_rate(config, version), every),
         )
         .map_err(|error| fault::of_session(&error))?;
-        if let Some(fault) = fault::of_arm(&status) {
-            return Err(fault);
-        }
-        if !status.program_is_still() {
-            let detail = "a program runs on the controller: stop it at the pendant first";
-            return Err(ArmError::new(fault::OTHER_PROGRAM, detail));
+        if let Some(hindrance) = plan::hindrance(&status) {
+            return Err(hindrance);
         }
         let pace = Pace {
             cycle_s: program.cycle_s,
@@ -276,9 +272,6 @@ fn subscribe(
     config: &UrConfig,
     frequency_hz: f64,
 ) -> Result<Status, SessionError> {
-    // A controller sends in every floor(rate / frequency)-th cycle: a hair less than the frequency
-    // keeps rounding from making that one cycle too few.
-    let frequency_hz = (frequency_hz * (1.0 - 1e-9)).max(1.0);
     session.subscribe(frequency_hz, &Status::fields(config.registers))?;
     session.claim(&config.registers.inputs())?;
     session.start()?;

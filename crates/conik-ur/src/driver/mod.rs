@@ -7,6 +7,7 @@
 //! | `link` | one connection, from the handshake to the stop |
 //! | `pace` | what is late, and what is no clock |
 //! | `plan` | what is settled before: rate, registers, program |
+//! | `preflight` | a look at controller and link before anything moves |
 //! | `guard` | the last check of a reference before it goes out |
 //! | `fault` | the names of all faults |
 
@@ -17,6 +18,7 @@ mod guard;
 mod link;
 mod pace;
 mod plan;
+pub mod preflight;
 
 pub use config::UrConfig;
 

@@ -27,6 +27,10 @@ pub struct Behaviour {
     pub input_types: Option<String>,
     /// Packages sent at once where one is due.
     pub packages_at_once: usize,
+    /// Sends packages on its own, one a millisecond, until the driver goes away.
+    pub streams: bool,
+    /// How the outputs are from the beginning.
+    pub from_start: Option<Change>,
     /// Changes the outputs from the given reference on.
     pub after: Option<(i32, Change)>,
 }
@@ -39,6 +43,8 @@ impl Default for Behaviour {
             byte_by_byte: false,
             input_types: None,
             packages_at_once: 1,
+            streams: false,
+            from_start: None,
             after: None,
         }
     }
@@ -143,6 +149,9 @@ fn serve(behaviour: &Behaviour, listener: &TcpListener, sessions: &Receiver<i32>
         actual_q: None,
         link: LinkEnd::None,
     };
+    if let Some(change) = behaviour.from_start {
+        change(&mut outputs);
+    }
     while let Some((kind, payload)) = read_package(&mut stream) {
         let mut replies = Vec::new();
         match kind {
@@ -188,8 +197,24 @@ fn serve(behaviour: &Behaviour, listener: &TcpListener, sessions: &Receiver<i32>
                 return written;
             }
         }
+        if kind == b'S' && behaviour.streams {
+            stream_outputs(&mut stream, behaviour, &mut outputs);
+        }
     }
     written
+}
+
+fn stream_outputs(stream: &mut TcpStream, behaviour: &Behaviour, outputs: &mut Outputs) {
+    loop {
+        thread::sleep(std::time::Duration::from_millis(1));
+        let mut packages = Vec::new();
+        push_outputs(&mut packages, behaviour, outputs);
+        for (kind, payload) in packages {
+            if send(stream, behaviour, kind, &payload).is_err() {
+                return;
+            }
+        }
+    }
 }
 
 /// The servo program's share in the outputs.
