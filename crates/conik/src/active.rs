@@ -56,6 +56,17 @@ impl ActiveSet {
         Self { words }
     }
 
+    /// The tasks that are not in the other set.
+    #[inline]
+    #[must_use]
+    pub fn without(&self, other: &Self) -> Self {
+        let mut words = self.words;
+        for (word, other) in words.iter_mut().zip(&other.words) {
+            *word &= !other;
+        }
+        Self { words }
+    }
+
     /// Whether no task is in the set.
     #[inline]
     pub fn is_empty(&self) -> bool {

@@ -16,8 +16,9 @@ use crate::border::{Borders, MARGIN};
 use crate::evaluation::Evaluation;
 use crate::real::sqrt;
 use crate::settings::{Border, Settings};
-use crate::sides::{Side, Sides, landing_rate};
+use crate::sides::{Held, Side, Sides, landing_rate};
 use crate::stack::{Goal, Stack};
+use crate::task_id::TaskId;
 
 /// Share of the joints' acceleration that braking in front of a bound counts on. The rest is for what
 /// bends, and for the other sets.
@@ -34,6 +35,8 @@ pub(crate) struct Barrier {
     /// Sides, by index, that are to move inward at a rate [unit/s], as far as all the others allow:
     /// the recovery of sets that are outside.
     pub(crate) wishes: Vec<(usize, f64)>,
+    /// Sides in front of which the arm brakes: their b keeps them away from their margin.
+    pub(crate) slowed: Held,
     /// Greatest acceleration of each joint, where braking is to be counted on.
     braking: Option<Vec<f64>>,
     border: Border,
@@ -42,6 +45,8 @@ pub(crate) struct Barrier {
     /// their b.
     far: Vec<(Side, f64)>,
     horizon: f64,
+    /// The sets that may have a side that is not.
+    near: Vec<TaskId>,
 }
 
 impl Barrier {
@@ -50,10 +55,12 @@ impl Barrier {
             sides: Sides::new(stack),
             bounds: Vec::with_capacity(2 * stack.len()),
             wishes: Vec::with_capacity(2 * stack.len()),
+            slowed: Held::default(),
             braking,
             border: settings.border,
             period: 1.0 / settings.rate_hz,
             far: Vec::with_capacity(2 * stack.len()),
+            near: Vec::with_capacity(stack.len()),
             horizon: f64::INFINITY,
         }
     }
@@ -63,20 +70,23 @@ impl Barrier {
         self.sides.clear();
         self.bounds.clear();
         self.wishes.clear();
+        self.slowed = Held::default();
         self.far.clear();
         self.horizon = f64::INFINITY;
     }
 
     /// Gathers, into an empty barrier, the sides of the high-priority sets.
     pub(crate) fn gather(&mut self, stack: &Stack, borders: &Borders, evaluation: &mut Evaluation) {
-        for (task, level) in stack.iter() {
+        self.part(stack, borders, evaluation);
+        for place in 0..self.near.len() {
+            let task = self.near[place];
             let Goal::Set {
                 interval, recovery, ..
-            } = level.goal()
+            } = stack[task].goal()
             else {
                 break;
             };
-            let sigma = evaluation.scalar(task);
+            let (sigma, steepness) = (evaluation.scalar(task), evaluation.steepness(task));
             for side in Side::both(task) {
                 let inside = side.inside(borders.interval(task), sigma);
                 let Some(bound) = self.bound(inside) else {
@@ -84,18 +94,49 @@ impl Barrier {
                 };
                 let approaching = side.inward(borders.bound_rate(side) - evaluation.drift(task));
                 let outside = -side.inside(interval, sigma);
-                let horizon = -(bound + approaching) / evaluation.steepness(stack, task);
+                let horizon = -(bound + approaching) / steepness;
                 if horizon > NEAR && outside <= 0.0 && self.braking.is_none() {
                     self.far.push((side, bound + approaching));
                     self.horizon = self.horizon.min(horizon);
                     continue;
                 }
                 self.sides.push(stack, evaluation, side);
-                self.bounds.push(self.braked(bound, inside) + approaching);
+                let braked = self.braked(bound, inside);
+                if braked > bound {
+                    self.slowed.insert(side);
+                }
+                self.bounds.push(braked + approaching);
                 if let (Some(speed), true) = (*recovery, outside > 0.0) {
                     let rate = speed.min(landing_rate(-outside, self.period)) + approaching;
                     self.wishes.push((self.bounds.len() - 1, rate));
                 }
+            }
+        }
+    }
+
+    /// Parts the high-priority sets into those that are near and, where nothing but the arm moves and
+    /// every set was entered, those with both sides far away, which takes no more than one look.
+    fn part(&mut self, stack: &Stack, borders: &Borders, evaluation: &Evaluation) {
+        self.near.clear();
+        let sets = stack.high_priority_sets().map(|(task, _)| task);
+        let only_the_arm_moves = borders.are_settled() && !evaluation.is_any_drifting();
+        if self.border == Border::Freeze || self.braking.is_some() || !only_the_arm_moves {
+            self.near.extend(sets);
+            return;
+        }
+        let looks = borders.intervals().iter().zip(evaluation.steepnesses());
+        let looks = looks.zip(evaluation.scalars(borders.high_priority()));
+        for (task, ((set, steepness), sigma)) in sets.zip(looks) {
+            let rates = Side::both(task)
+                .map(|side| (side, landing_rate(side.inside(set, *sigma), self.period)));
+            let [(_, lower), (_, upper)] = rates;
+            let horizon = -lower.max(upper) / steepness;
+            if horizon > NEAR {
+                self.horizon = self.horizon.min(horizon);
+                let bounded = |(_, bound): &(Side, f64)| *bound > f64::NEG_INFINITY;
+                self.far.extend(rates.into_iter().filter(bounded));
+            } else {
+                self.near.push(task);
             }
         }
     }

@@ -23,21 +23,29 @@ pub(crate) struct Borders {
     border: Border,
     period: f64,
     holds: Vec<Hold>,
+    /// The bounds in force for each task: now, and at the end of the period. All values for an
+    /// equality task.
+    intervals: Vec<Interval>,
+    next: Vec<Interval>,
+    /// How fast they move.
+    rates: Vec<BoundRates>,
+    /// Number of sets above the first equality task, and the other sets.
+    high_priority: usize,
+    low_priority: Vec<TaskId>,
     /// Whether standing still keeps every set, and none is to recover.
     at_ease: bool,
+    /// The revision of the sets in which no bound moved, nor, with `Freeze`, recovered, and with `Land`
+    /// all had entered. Until the next, the bounds in force stay what they are.
+    settled: Option<u64>,
 }
 
-/// What one task is held to.
+/// What is known of one set.
 #[derive(Clone, Copy, Debug)]
 struct Hold {
     entered: bool,
     /// How far outside the lower and the upper bound it may be: nothing once it has entered, its best
     /// so far until then.
     leeway: [f64; 2],
-    /// The bounds in force. All values for an equality task.
-    interval: Interval,
-    /// How fast they move.
-    rates: BoundRates,
 }
 
 impl Borders {
@@ -46,25 +54,36 @@ impl Borders {
             min: f64::NEG_INFINITY,
             max: f64::INFINITY,
         };
+        let sets = stack.iter().filter(|(_, level)| level.interval().is_some());
+        let unknown = Hold {
+            entered: false,
+            leeway: [f64::INFINITY; 2],
+        };
         Self {
-            at_ease: true,
             border: settings.border,
             period: 1.0 / settings.rate_hz,
-            holds: alloc::vec![
-                Hold {
-                    entered: false,
-                    leeway: [f64::INFINITY; 2],
-                    interval: unbounded,
-                    rates: BoundRates::default(),
-                };
-                stack.len()
-            ],
+            holds: alloc::vec![unknown; stack.len()],
+            intervals: alloc::vec![unbounded; stack.len()],
+            next: alloc::vec![unbounded; stack.len()],
+            rates: alloc::vec![BoundRates::default(); stack.len()],
+            high_priority: stack.high_priority_sets().count(),
+            low_priority: sets
+                .map(|(id, _)| id)
+                .filter(|&id| !stack.is_high_priority(id))
+                .collect(),
+            at_ease: true,
+            settled: None,
         }
     }
 
     /// Takes in the values at the configuration in which the robot now is.
     pub(crate) fn observe(&mut self, stack: &Stack, evaluation: &Evaluation) {
         self.at_ease = true;
+        let is_settled = self.settled == Some(stack.set_revision());
+        if is_settled && !evaluation.is_any_drifting() && self.all_are_inside(evaluation) {
+            return;
+        }
+        let mut is_settled = true;
         for (id, level) in stack.iter() {
             let &Goal::Set {
                 interval: set,
@@ -78,21 +97,49 @@ impl Borders {
             let sigma = evaluation.scalar(id);
             let hold = &mut self.holds[id.index()];
             hold.entered |= set.contains(sigma);
-            hold.rates = rates;
-            hold.interval = set;
+            let mut interval = set;
             if self.border == Border::Land && !hold.entered {
                 hold.leeway = [
                     least_leeway(hold.leeway[0], set.min - sigma),
                     least_leeway(hold.leeway[1], sigma - set.max),
                 ];
-                hold.interval.min -= hold.leeway[0];
-                hold.interval.max += hold.leeway[1];
+                interval.min -= hold.leeway[0];
+                interval.max += hold.leeway[1];
             }
-            self.at_ease &= rates == BoundRates::default()
+            let is_still = rates == BoundRates::default();
+            is_settled &= is_still
+                && match self.border {
+                    Border::Freeze => recovery.is_none(),
+                    Border::Land => hold.entered,
+                };
+            self.at_ease &= is_still
                 && evaluation.drift(id) == 0.0
                 && (recovery.is_none() || set.contains(sigma))
-                && (self.border == Border::Freeze || hold.interval.contains(sigma));
+                && (self.border == Border::Freeze || interval.contains(sigma));
+            self.intervals[id.index()] = interval;
+            self.next[id.index()] = Interval {
+                min: interval.min + self.period * rates.min,
+                max: interval.max + self.period * rates.max,
+            };
+            self.rates[id.index()] = rates;
         }
+        self.settled = is_settled.then_some(stack.set_revision());
+    }
+
+    /// Whether every set is within its bounds in force, where that matters.
+    fn all_are_inside(&self, evaluation: &Evaluation) -> bool {
+        if self.border == Border::Freeze {
+            return true;
+        }
+        let is_inside = |&task: &TaskId| self.interval(task).contains(evaluation.scalar(task));
+        are_within(&self.intervals, evaluation.scalars(self.high_priority))
+            && self.low_priority.iter().all(is_inside)
+    }
+
+    /// Whether every high-priority set is within its bounds in force at the end of the period, with the
+    /// values of then.
+    pub(crate) fn all_will_be_inside(&self, at_end: &Evaluation) -> bool {
+        are_within(&self.next, at_end.scalars(self.high_priority))
     }
 
     /// Whether standing still keeps every set, and none is to recover.
@@ -108,26 +155,35 @@ impl Borders {
     /// The bounds in force for a set-based task.
     #[inline]
     pub(crate) fn interval(&self, task: TaskId) -> &Interval {
-        &self.holds[task.index()].interval
+        &self.intervals[task.index()]
     }
 
     /// The bounds in force at the end of the period.
     #[inline]
-    pub(crate) fn next_interval(&self, task: TaskId) -> Interval {
-        let Hold {
-            interval, rates, ..
-        } = self.holds[task.index()];
-        Interval {
-            min: interval.min + self.period * rates.min,
-            max: interval.max + self.period * rates.max,
-        }
+    pub(crate) fn next_interval(&self, task: TaskId) -> &Interval {
+        &self.next[task.index()]
     }
 
     /// How fast the bound of a side moves [unit/s].
     #[inline]
     pub(crate) fn bound_rate(&self, side: Side) -> f64 {
-        let BoundRates { min, max } = self.holds[side.task.index()].rates;
+        let BoundRates { min, max } = self.rates[side.task.index()];
         if side.is_upper { max } else { min }
+    }
+
+    /// Whether the bounds in force will stay what they are; with `Land`, they are the sets.
+    pub(crate) fn are_settled(&self) -> bool {
+        self.settled.is_some()
+    }
+
+    /// Number of sets above the first equality task.
+    pub(crate) fn high_priority(&self) -> usize {
+        self.high_priority
+    }
+
+    /// The bounds in force for every task.
+    pub(crate) fn intervals(&self) -> &[Interval] {
+        &self.intervals
     }
 
     /// The sides at whose border, or outside of which, a value is.
@@ -144,7 +200,7 @@ impl Borders {
     /// set that is held a margin inside counts as on its border there.
     #[inline]
     pub(crate) fn tangent_cone(&self, task: TaskId, sigma: f64) -> Interval {
-        let (set, rates) = (self.with_band(task), self.holds[task.index()].rates);
+        let (set, rates) = (self.with_band(task), self.rates[task.index()]);
         let is_at = |is_at: bool, rate: f64, otherwise: f64| if is_at { rate } else { otherwise };
         Interval {
             min: is_at(sigma <= set.min, rates.min, f64::NEG_INFINITY),
@@ -184,6 +240,12 @@ impl Borders {
             Border::Land => 2.0 * MARGIN,
         }
     }
+}
+
+/// Whether each value is in its interval, found out without a branch for each.
+fn are_within(intervals: &[Interval], values: &[f64]) -> bool {
+    let sets = intervals.iter().zip(values);
+    sets.fold(true, |all, (set, sigma)| all & set.contains(*sigma))
 }
 
 /// A bound that jumped moved by more than this; what is less is rounding [task's unit].

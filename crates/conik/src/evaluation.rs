@@ -18,12 +18,19 @@ pub(crate) struct Evaluation {
     errors: TaskVectors,
     /// ∂σ/∂t of the tasks whose own parameters move; zeros for the others.
     drifts: TaskVectors,
-    /// Tasks whose drift is not zero, and whether there are any.
-    drifting: ActiveSet,
     is_any_drifting: bool,
     /// The Jacobian of each task, row after row.
     jacobians: Vec<Vec<f64>>,
     jacobian_known: ActiveSet,
+    /// Which tasks these are: their parameters have been changed so many times.
+    revision: Option<u64>,
+    steepness: Vec<f64>,
+    /// The sets that stand still while the robot does, and whether their values are known where it is.
+    /// So what landing computes at q + T q̇ serves the tick that begins there.
+    still: Vec<TaskId>,
+    is_still_known: bool,
+    /// The other tasks: those to be met, and those that move by themselves.
+    others: Vec<TaskId>,
 }
 
 impl Evaluation {
@@ -34,19 +41,23 @@ impl Evaluation {
             values: TaskVectors::zeros(stack),
             errors: TaskVectors::zeros(stack),
             drifts: TaskVectors::zeros(stack),
-            drifting: ActiveSet::EMPTY,
             is_any_drifting: false,
             jacobians: stack
                 .iter()
                 .map(|(_, level)| alloc::vec![0.0; level.task().dimension() * robot.dof()])
                 .collect(),
             jacobian_known: ActiveSet::EMPTY,
+            revision: None,
+            steepness: alloc::vec![f64::INFINITY; stack.len()],
+            still: Vec::with_capacity(stack.len()),
+            is_still_known: false,
+            others: Vec::with_capacity(stack.len()),
         }
     }
 
     /// The robot at `q`, without the tasks.
     pub(crate) fn kinematics_at(&mut self, q: &[f64]) -> &Kinematics {
-        self.kinematics.update(q);
+        self.move_to(q);
         &self.kinematics
     }
 
@@ -56,8 +67,14 @@ impl Evaluation {
     }
 
     /// How fast the value of a task can change, see [`Task::steepness`](crate::Task::steepness).
-    pub(crate) fn steepness(&self, stack: &Stack, task: TaskId) -> f64 {
-        stack[task].task().steepness(self.kinematics.reach())
+    #[inline]
+    pub(crate) fn steepness(&self, task: TaskId) -> f64 {
+        self.steepness[task.index()]
+    }
+
+    /// [`steepness`](Self::steepness) of every task.
+    pub(crate) fn steepnesses(&self) -> &[f64] {
+        &self.steepness
     }
 
     /// Whether the robot is at `q`.
@@ -68,47 +85,87 @@ impl Evaluation {
     /// Values of all tasks at `q` now, errors of the equality tasks, and drifts. Jacobians wait to be
     /// asked for.
     pub(crate) fn update(&mut self, stack: &Stack, q: &[f64]) {
-        self.kinematics.update(q);
-        self.jacobian_known = ActiveSet::EMPTY;
-        for (id, level) in stack.iter() {
-            let value = self.values.of_mut(id);
+        self.move_to(q);
+        self.look_at(stack);
+        for &id in &self.others {
+            let (level, value) = (&stack[id], self.values.of_mut(id));
             level.task().value(&self.kinematics, value);
             if let Goal::Equality { desired, .. } = level.goal() {
                 level.task().error(desired, value, self.errors.of_mut(id));
             }
-            self.update_drift(stack, id);
-        }
-        self.is_any_drifting = !self.drifting.is_empty();
-    }
-
-    /// The mean of ∂σ/∂t over the period: with it, the value at its end is met without lag.
-    fn update_drift(&mut self, stack: &Stack, id: TaskId) {
-        let task = stack[id].task();
-        if task.is_moving() {
-            let drift = self.drifts.of_mut(id);
-            task.value_ahead(&self.kinematics, self.period, drift);
-            for (drift, now) in drift.iter_mut().zip(self.values.of(id)) {
-                *drift = (*drift - now) / self.period;
+            if level.task().is_moving() {
+                // The mean of ∂σ/∂t over the period: with it, the value at its end is met without lag.
+                let drift = self.drifts.of_mut(id);
+                level
+                    .task()
+                    .value_ahead(&self.kinematics, self.period, drift);
+                for (drift, now) in drift.iter_mut().zip(value) {
+                    *drift = (*drift - *now) / self.period;
+                }
             }
-            self.drifting.insert(id);
-        } else if self.drifting.contains(id) {
-            self.drifting.remove(id);
-            self.drifts.of_mut(id).fill(0.0);
         }
     }
 
     /// Values of the sets at `q` at the end of the period.
     pub(crate) fn look_ahead(&mut self, stack: &Stack, q: &[f64]) {
-        self.kinematics.update(q);
-        self.jacobian_known = ActiveSet::EMPTY;
-        for (id, level) in stack.iter().filter(|(_, level)| level.interval().is_some()) {
-            let (task, value) = (level.task(), self.values.of_mut(id));
-            if task.is_moving() {
-                task.value_ahead(&self.kinematics, self.period, value);
-            } else {
-                task.value(&self.kinematics, value);
+        self.move_to(q);
+        self.look_at(stack);
+        if self.is_any_drifting {
+            for &id in &self.others {
+                let (level, value) = (&stack[id], self.values.of_mut(id));
+                if level.interval().is_some() {
+                    level
+                        .task()
+                        .value_ahead(&self.kinematics, self.period, value);
+                }
             }
         }
+    }
+
+    fn move_to(&mut self, q: &[f64]) {
+        if !self.is_at(q) {
+            self.kinematics.update(q);
+            self.forget();
+        }
+    }
+
+    fn forget(&mut self) {
+        self.jacobian_known = ActiveSet::EMPTY;
+        self.is_still_known = false;
+    }
+
+    /// Values of the sets that stand still, unless they are known.
+    fn look_at(&mut self, stack: &Stack) {
+        if self.revision != Some(stack.revision()) {
+            self.sort(stack);
+        }
+        if !self.is_still_known {
+            for &id in &self.still {
+                let value = self.values.of_mut(id);
+                stack[id].task().value(&self.kinematics, value);
+            }
+            self.is_still_known = true;
+        }
+    }
+
+    /// Sorts the tasks anew: the parameters of some have been changed.
+    fn sort(&mut self, stack: &Stack) {
+        self.forget();
+        self.still.clear();
+        self.others.clear();
+        self.is_any_drifting = false;
+        for (id, level) in stack.iter() {
+            let is_moving = level.task().is_moving();
+            self.is_any_drifting |= is_moving;
+            self.drifts.of_mut(id).fill(0.0);
+            self.steepness[id.index()] = level.task().steepness(self.kinematics.reach());
+            if is_moving || level.interval().is_none() {
+                self.others.push(id);
+            } else {
+                self.still.push(id);
+            }
+        }
+        self.revision = Some(stack.revision());
     }
 
     /// The first task whose value, or drift, is not a finite number.
@@ -138,6 +195,17 @@ impl Evaluation {
     #[inline]
     pub(crate) fn scalar(&self, task: TaskId) -> f64 {
         self.values.of(task)[0]
+    }
+
+    /// σ of the first `count` tasks, each of one component.
+    #[inline]
+    pub(crate) fn scalars(&self, count: usize) -> &[f64] {
+        self.values.first(count)
+    }
+
+    /// Whether any task moves by itself.
+    pub(crate) fn is_any_drifting(&self) -> bool {
+        self.is_any_drifting
     }
 
     /// J of a task for which it was asked before.

@@ -124,6 +124,27 @@ impl Hierarchy {
         self.above.truncate(frozen);
     }
 
+    /// Whether the row of a low-priority set depends on the rows that stand above it when the
+    /// high-priority sets of the mode are the frozen ones and its low-priority sets are those in
+    /// `active`: then it makes no difference whether the set is active too.
+    pub(crate) fn depends(
+        &mut self,
+        stack: &Stack,
+        evaluation: &mut Evaluation,
+        task: TaskId,
+        active: &ActiveSet,
+    ) -> bool {
+        let frozen = self.above.rank();
+        for &level in self.lower.iter().take_while(|&&level| level != task) {
+            if stack[level].interval().is_none() || active.contains(level) {
+                self.above.push_block(evaluation.jacobian(stack, level));
+            }
+        }
+        let is_new = self.above.push(evaluation.jacobian(stack, task));
+        self.above.truncate(frozen);
+        !is_new
+    }
+
     /// The velocity of the mode whose high-priority sets are the frozen ones and whose low-priority
     /// sets are those in `active`.
     pub(crate) fn velocity(

@@ -8,8 +8,8 @@
 //! **Every sample is inside.** By induction over ticks, for sets and bounds that do not move. Let q be
 //! inside every bound in force; for sets entered, those are the sets. (1) Each way out of
 //! [`Landing::land`] commits either a point whose values were computed and found inside every bound
-//! in force, or q itself. (2) The next tick computes the same values from the same bits, so it finds
-//! them inside too. (3) Bounds in force only ever tighten, towards the set, and never past the
+//! in force, or q itself. (2) The next tick uses these values, or computes the same from the same bits, so
+//! it finds them inside too. (3) Bounds in force only ever tighten, towards the set, and never past the
 //! present value ([`Borders`](crate::border::Borders)). Hence the next q is inside, exactly: no
 //! tolerance, any rate, any rule, any recursion, any number of sets. Nothing is said about the time
 //! between samples. `docs/method.md` goes through the steps one by one.
@@ -156,7 +156,7 @@ impl Landing {
             landed.kinematics += 1;
             approach.there.look_ahead(approach.stack, target);
             let is_last = corrections == CORRECTIONS;
-            match worst(approach, |task| approach.there.scalar(task)) {
+            match approach.worst_at_trial() {
                 None if is_shortened || is_last || approach.holds_margins() => {
                     self.caution = (2.0 * self.caution).min(1.0);
                     return landed;
@@ -300,9 +300,9 @@ impl Landing {
             );
             let bounded = |side: &Side| side.inside(set, 0.0).is_finite();
             for side in Side::both(task).into_iter().filter(bounded) {
-                let bound = landing_rate(side.inside(&next, sigma), self.period);
+                let bound = landing_rate(side.inside(next, sigma), self.period);
                 let is_held = approach.held.contains(side) && !is_shortened;
-                let horizon = -bound / approach.here.steepness(approach.stack, task);
+                let horizon = -bound / approach.here.steepness(task);
                 if horizon > near && !is_held {
                     self.horizon = self.horizon.min(horizon);
                     continue;
@@ -318,6 +318,14 @@ impl Landing {
 }
 
 impl Approach<'_> {
+    /// The high-priority set that is furthest outside at the trial; `None` if all are inside.
+    fn worst_at_trial(&self) -> Option<Outside> {
+        if self.borders.all_will_be_inside(self.there) {
+            return None;
+        }
+        worst(self, |task| self.there.scalar(task))
+    }
+
     /// Whether every held side is a margin inside at the trial, to half of it.
     fn holds_margins(&self) -> bool {
         let tasks = self.held.tasks();
@@ -328,7 +336,7 @@ impl Approach<'_> {
             .filter(|&side| self.held.contains(side))
             .all(|side| {
                 let set = self.borders.next_interval(side.task);
-                let inside = side.inside(&set, self.there.scalar(side.task));
+                let inside = side.inside(set, self.there.scalar(side.task));
                 (inside - MARGIN).abs() <= 0.5 * MARGIN
             })
     }
@@ -338,10 +346,7 @@ impl Approach<'_> {
 /// these values; `None` if all are inside.
 fn worst(approach: &Approach<'_>, value: impl Fn(TaskId) -> f64) -> Option<Outside> {
     let mut worst: Option<Outside> = None;
-    for (task, level) in approach.stack.iter() {
-        if level.interval().is_none() {
-            break;
-        }
+    for (task, _) in approach.stack.high_priority_sets() {
         let (set, sigma) = (approach.borders.next_interval(task), value(task));
         if set.contains(sigma) {
             continue;

@@ -89,6 +89,14 @@ impl Held {
         }
     }
 
+    #[must_use]
+    pub(crate) fn without(&self, other: &Self) -> Self {
+        Self {
+            lower: self.lower.without(&other.lower),
+            upper: self.upper.without(&other.upper),
+        }
+    }
+
     /// The tasks of which a side is held.
     pub(crate) fn tasks(&self) -> ActiveSet {
         self.lower.union(&self.upper)

@@ -39,6 +39,12 @@ impl TaskVectors {
         &mut self.entries[self.starts[task.index()]..self.starts[task.index() + 1]]
     }
 
+    /// The first `count` entries.
+    #[inline]
+    pub(crate) fn first(&self, count: usize) -> &[f64] {
+        &self.entries[..count]
+    }
+
     /// The first task with an entry that is not a finite number.
     pub(crate) fn not_finite(&self) -> Option<TaskId> {
         let entry = not_finite(&self.entries)?;

@@ -3,8 +3,9 @@
 mod paper;
 
 use conik::{
-    Axis, Controller, ControllerError, Coordinate, Distance, FieldOfView, JointPosition, JointVec,
-    ModeOrder, ModeRule, Monitor, Position, Robot, Settings, Stack, StackErrorReason, StepError,
+    Axis, Controller, ControllerError, Coordinate, Distance, FieldOfView, Frame, JointPosition,
+    JointVec, ModeOrder, ModeRule, Monitor, Position, Robot, Settings, Stack, StackErrorReason,
+    StepError, Vec3,
 };
 use paper::Example;
 
@@ -112,6 +113,32 @@ fn a_task_without_a_finite_value_is_an_error_not_an_inactive_set() {
         result.map(|_| ()),
         Err(StepError::TaskNotFinite { task: wall })
     );
+}
+
+#[test]
+fn a_point_moved_between_ticks_counts_where_the_last_tick_landed() {
+    let mut controller = controller(|stack| {
+        stack
+            .set("wall", Distance::of_tool_to([1.0, 1.0, 1.0]), 0.1..)
+            .expect("sound");
+    });
+    let wall = controller.stack().find("wall").expect("there");
+    let mut q = controller.step(&[0.1; 6]).expect("finite").q_ref;
+    for x in [1.5, 1.0, 2.0] {
+        let point = [x, 1.0, 1.0];
+        controller
+            .setpoints()
+            .task_mut::<Distance>(wall)
+            .expect("a distance")
+            .set_point(point);
+        let tool = controller.kinematics_at(&q).base_from(Frame::Tool).origin;
+        let expected = (tool - Vec3::from(point)).norm();
+        for _ in 0..2 {
+            let step = controller.step(&q).expect("finite");
+            assert_eq!(step.value(wall), [expected]);
+        }
+        q = controller.last_step().q_ref;
+    }
 }
 
 #[test]

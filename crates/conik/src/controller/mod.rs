@@ -29,9 +29,10 @@ use crate::task_id::TaskId;
 /// * border `Land` computes the kinematics of at most 9 configurations a tick, `Freeze` of one;
 /// * all quadratic programs of a tick, those of rule `Cone` and those of `Land`, share
 ///   [`MAX_PIVOTS`] pivots;
-/// * rules `Paper` and `Border` compute at most Σₖ C(n, k) velocities, k = 0 … min(n, joints), n being
-///   the number of high-priority sets that may be active: all with `Paper`, those at their border,
-///   rarely more than two, with `Border`.
+/// * rules `Paper` and `Border` compute at most 1 + Σₖ C(n, k) velocities, k = 0 … min(n, joints),
+///   n being the number of sets, of high and low priority, that may be active: all with `Paper`, those at
+///   their border, rarely more than two, with `Border`. Fewer where rows depend on each other: no subset
+///   is tried in which a row depends on those above it.
 #[derive(Debug)]
 pub struct Controller {
     stack: Stack,
@@ -292,10 +293,11 @@ impl Controller {
             }
             Rule::Nearest(nearest) => nearest.held(),
         };
-        // What moves in from outside is not to be held where it was.
+        // What moves in from outside is not to be held where it was, nor what is still approached.
         for &(side, _) in &self.barrier.wishes {
             held.remove(self.barrier.sides.get(side));
         }
+        let held = held.without(&self.barrier.slowed);
         let mut approach = Approach {
             stack: &self.stack,
             here: &mut self.here,

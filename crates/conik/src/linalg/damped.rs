@@ -26,6 +26,9 @@ pub(super) const STRICT: f64 = 1e-3;
 /// ε: singular values below this are damped [task's unit per rad].
 pub(crate) const SINGULAR: f64 = 0.2;
 
+/// Singular values below this are what rounding leaves of rows that are taken [task's unit per rad].
+const ROUNDING: f64 = 1e-13;
+
 /// Singular values below this have no direction [task's unit per rad].
 const NO_DIRECTION: f64 = 1e-9;
 
@@ -141,7 +144,7 @@ impl Damped {
         for k in 0..n {
             let squared = self.gram[k * n + k];
             self.lost += usize::from(squared < SINGULAR * SINGULAR);
-            if squared <= NO_DIRECTION * NO_DIRECTION {
+            if squared <= ROUNDING * ROUNDING {
                 // What rounding leaves of rows that are taken is no direction to move in.
                 continue;
             }

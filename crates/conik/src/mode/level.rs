@@ -73,6 +73,8 @@ pub(crate) struct Level<'a> {
     pub(crate) bounds: &'a [f64],
     /// Σ μ c [task's unit/s].
     pub(crate) push_back: f64,
+    /// How many times its estimate λ² is to be.
+    pub(crate) stiffening: f64,
     pub(crate) damping: Damping,
 }
 
@@ -200,7 +202,7 @@ impl LevelProgram {
             LOWER
         };
         let to_rest = self.period * (asked + level.push_back);
-        let lambda_squared = damping.lambda_squared(to_rest.max(least));
+        let lambda_squared = damping.lambda_squared(level.stiffening * to_rest.max(least));
         self.damped.analyse(damping, &self.usable);
         let dimension = level.above.rows().complement(&mut self.free);
         let free = &self.free[..dimension * self.dof];

@@ -6,10 +6,12 @@
 
 mod asked;
 mod claims;
+mod frozen;
 mod level;
 mod nearest;
 mod order;
 mod search;
+mod tremor;
 
 pub(crate) use nearest::{Nearest, NearestTick};
 pub use order::ModeOrder;

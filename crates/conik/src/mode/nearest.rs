@@ -18,6 +18,7 @@ use alloc::vec::Vec;
 use super::asked::{Asked, Asks};
 use super::claims::{Claims, Turn};
 use super::level::{Level, LevelProgram};
+use super::tremor::Tremor;
 use crate::active::ActiveSet;
 use crate::barrier::Barrier;
 use crate::border::Borders;
@@ -50,6 +51,7 @@ pub(crate) struct Nearest {
     /// r: what the last level asked for and did not get.
     unmet: Vec<f64>,
     returning: Vec<usize>,
+    tremor: Tremor,
     /// How fast each side would be left if it were let go [unit/s].
     crossings: Vec<f64>,
     /// Directions that each lower level has lost.
@@ -80,6 +82,7 @@ impl Nearest {
             .filter(|&id| !stack.is_high_priority(id))
             .collect();
         let period = 1.0 / settings.rate_hz;
+        let tremor = Tremor::new(lower.len(), stack.dof());
         Self {
             recursion: settings.recursion,
             program: LevelProgram::new(stack, settings),
@@ -93,6 +96,7 @@ impl Nearest {
             asked: Asked::new(max_rows, period),
             unmet: Vec::with_capacity(max_rows),
             returning: Vec::with_capacity(2 * stack.len()),
+            tremor,
             crossings: alloc::vec![0.0; 2 * stack.len()],
             tasks: stack.len(),
         }
@@ -152,6 +156,8 @@ impl Nearest {
             solution = self.solve(tick, place, velocity);
         }
         if solution == Solution::Optimal {
+            self.tremor
+                .observe(place, velocity, self.program.velocity());
             velocity.copy_from_slice(self.program.velocity());
             self.remember(place, &tick.barrier.sides);
             self.lost[place] = self.program.lost();
@@ -176,6 +182,12 @@ impl Nearest {
         tick.evaluation.jacobian(tick.stack, task);
         let (evaluation, barrier) = (&*tick.evaluation, &*tick.barrier);
         let multipliers = &self.multipliers[place * 2 * self.tasks..];
+        // The estimate of a level with none above it counts everything that it can answer to.
+        let stiffening = if self.above.rows().rank() == 0 {
+            1.0
+        } else {
+            self.tremor.factor(place)
+        };
         let counting_on = |held: &Held| Level {
             jacobian: evaluation.known_jacobian(task),
             asked: self.asked.rates(),
@@ -185,6 +197,7 @@ impl Nearest {
             bounds: &barrier.bounds,
             push_back: push_back(tick.stack, evaluation, barrier, held, multipliers),
             damping: tick.stack[task].damping(),
+            stiffening,
         };
         let all = self.held_before.union(&self.held);
         let level = counting_on(&all);

@@ -5,18 +5,32 @@
 //! `in_T_C(J f, σ)`, f being the velocity of that mode. Active high-priority sets are frozen, so they
 //! pass by construction; active low-priority ones are pushed to their border and are not tested.
 //!
-//! 2ⁿ modes are never looked at, and the answer is the same:
+//! Only a set at or outside its border can fail, so only those are tested; while none is there, the
+//! first mode is the answer. Otherwise the same answer is found without going through the 2ⁿ modes:
 //!
-//! * Only a set at or outside its border can fail the test, so only those are tested; while none is
-//!   there, the first mode is the answer.
-//! * A mode whose frozen rows depend on each other has the velocity of an earlier one, of which a
-//!   basis of those rows is frozen: f depends on their span alone, and a released row of the span
-//!   has J f = 0, which is in every cone. If the later mode were accepted, so would have been the
-//!   earlier. So every subset with a dependent row is passed over together with its supersets, and
-//!   no mode freezes more rows than there are joints.
+//! 1. An active set whose row depends on the active rows that stand above it adds nothing: f and the
+//!    projectors of all levels depend on spans alone, and what it asks for lies in the span it is
+//!    projected out of. So a mode has the velocity of its *core*, the mode without these sets, and no
+//!    core has more sets than there are joints. A subset of a core is a core.
+//! 2. Of the modes with a given core I, all those are accepted in which the sets that fail at the
+//!    velocity of I are active: the *closure* I ∪ F of I and everything larger. The modes with this
+//!    core are I and any sets that depend on what is above them. So if a set of F does not, or
+//!    excludes another of I ∪ F, no mode with this core is accepted; else the closure is the first.
+//!    Frozen high-priority rows that depend on others keep their place: they are not in F.
+//! 3. The answer is the first of all closures. A closure does not come before its core, so once the
+//!    next core comes after the first closure found, that is the answer.
+//!
+//! As a rule it has at most one set. So the modes of at most one set are looked at first, as they are;
+//! only where none of them is accepted, rows are asked whether they depend on others.
+//!
+//! With n sets that may be active at most Σₖ C(n, k) velocities are computed, k = 0 … min(n, joints),
+//! and one more where the answer is larger than its core: for a given arm, a polynomial in n. It is
+//! none in the number of joints. There the rule itself is hard: rows that pass once any of some joints
+//! is frozen make it ask for the fewest sets that cover all elements.
 
 use alloc::vec::Vec;
 
+use super::frozen::frozen_rate;
 use crate::active::ActiveSet;
 use crate::border::Borders;
 use crate::cone::Interval;
@@ -24,8 +38,7 @@ use crate::evaluation::Evaluation;
 use crate::hierarchy::Hierarchy;
 use crate::linalg::dot;
 use crate::settings::{ModeRule, Settings};
-use crate::sides::Side;
-use crate::stack::{Goal, Stack};
+use crate::stack::Stack;
 use crate::task_id::TaskId;
 
 /// A task that changes slower than this [unit/s] counts as one that stands still: a frozen task
@@ -39,13 +52,19 @@ pub(crate) struct ModeSearch {
     sets: Vec<TaskId>,
     /// The sets above the first equality task.
     high_priority: ActiveSet,
-    /// The sets of the mode at hand.
-    active: ActiveSet,
+    /// The core at hand.
+    core: ActiveSet,
+    /// The first of the closures found so far.
+    first: Option<ActiveSet>,
+    /// Whether the modes at hand are those of at most one set, looked at as they are.
+    is_first_look: bool,
+    /// What the first look left open: modes, and with the low-priority sets that fail there.
+    open: Vec<(ActiveSet, ActiveSet)>,
     /// Sets that the rule allows to be active this tick, in list order.
     candidates: Vec<TaskId>,
     /// Sets at or outside their border this tick, with the rates J q̇ that their cones allow.
     at_border: Vec<(TaskId, Interval)>,
-    /// How fast each task was left in the last mode that was refused for it [unit/s].
+    /// How fast each task was left at the last core that it failed at [unit/s].
     leaving: Vec<f64>,
     evaluated: usize,
 }
@@ -56,37 +75,6 @@ struct Tick<'a> {
     borders: &'a Borders,
     evaluation: &'a mut Evaluation,
     velocity: &'a mut [f64],
-}
-
-impl Tick<'_> {
-    /// J q̇ of a frozen set: zero, but for a bound or a task that moves by itself, and for a set that
-    /// recovers from outside.
-    fn frozen_rate(&self, task: TaskId) -> f64 {
-        if self.borders.are_at_ease() {
-            return 0.0;
-        }
-        let sigma = self.evaluation.scalar(task);
-        let border = self.borders.sides_at(task, sigma).next();
-        let bound_rate = border.map_or(0.0, |side| {
-            self.borders.bound_rate(side) + side.inward(self.recovery(task, side, sigma))
-        });
-        bound_rate - self.evaluation.drift(task)
-    }
-
-    /// How fast a frozen set is to come back to a side that it is outside of.
-    fn recovery(&self, task: TaskId, side: Side, sigma: f64) -> f64 {
-        match self.stack[task].goal() {
-            Goal::Set {
-                interval,
-                recovery: Some(speed),
-                ..
-            } => {
-                let outside = -side.inside(interval, sigma);
-                speed.min(outside.max(0.0) / self.borders.period())
-            }
-            _ => 0.0,
-        }
-    }
 }
 
 impl ModeSearch {
@@ -103,7 +91,10 @@ impl ModeSearch {
                 .copied()
                 .filter(|&task| stack.is_high_priority(task))
                 .collect(),
-            active: ActiveSet::EMPTY,
+            core: ActiveSet::EMPTY,
+            first: None,
+            is_first_look: true,
+            open: Vec::with_capacity(1 + sets.len()),
             candidates: Vec::with_capacity(sets.len()),
             at_border: Vec::with_capacity(sets.len()),
             leaving: alloc::vec![0.0; stack.len()],
@@ -123,7 +114,7 @@ impl ModeSearch {
         self.hierarchy.lost()
     }
 
-    /// How many modes the last search computed a velocity of.
+    /// How many velocities the last search computed.
     pub(crate) fn evaluated(&self) -> usize {
         self.evaluated
     }
@@ -138,26 +129,32 @@ impl ModeSearch {
         velocity: &mut [f64],
     ) -> Option<ActiveSet> {
         self.begin_tick(borders, evaluation);
-        let high = self
-            .candidates
-            .iter()
-            .filter(|&&task| self.high_priority.contains(task))
-            .count();
-        let low = self.candidates.len() - high;
         let mut tick = Tick {
             stack,
             borders,
             evaluation,
             velocity,
         };
-        (0..=high.min(stack.dof()) + low)
-            .any(|size| self.finds_one_of_size(&mut tick, size, 0))
-            .then_some(self.active)
+        let is_settled = (0..=1).any(|size| self.settles_with(&mut tick, size, 0));
+        if !is_settled {
+            self.is_first_look = false;
+            self.close_open(&mut tick);
+            self.go_through_cores(&mut tick);
+        }
+        let first = self.first?;
+        if first != self.core {
+            self.freeze_alone(&mut tick, &first);
+            self.find_velocity(&mut tick, &first);
+        }
+        Some(first)
     }
 
     fn begin_tick(&mut self, borders: &Borders, evaluation: &Evaluation) {
         self.evaluated = 0;
-        self.active = ActiveSet::EMPTY;
+        self.core = ActiveSet::EMPTY;
+        self.first = None;
+        self.is_first_look = true;
+        self.open.clear();
         self.hierarchy.begin_tick();
         self.candidates.clear();
         self.at_border.clear();
@@ -179,54 +176,134 @@ impl ModeSearch {
         }
     }
 
-    /// Looks for the first acceptable mode that adds `missing` more sets to the active ones, in list
-    /// order from the candidate number `from` on. If there is one, its sets stay active.
-    fn finds_one_of_size(&mut self, tick: &mut Tick<'_>, missing: usize, from: usize) -> bool {
+    /// Looks for closures of the modes of the first look.
+    fn close_open(&mut self, tick: &mut Tick<'_>) {
+        for i in 0..self.open.len() {
+            let (mode, closure) = self.open[i];
+            self.freeze_alone(tick, &mode);
+            self.keep_if_closure(tick, &mode, &closure);
+        }
+        self.hierarchy.release_to(0);
+    }
+
+    /// Goes through the cores of two sets and more until the answer is known.
+    fn go_through_cores(&mut self, tick: &mut Tick<'_>) {
+        for size in 2..=self.candidates.len() {
+            let evaluated = self.evaluated;
+            let is_settled = self.settles_with(tick, size, 0);
+            // Where there is no core of one size there is none of the next.
+            if is_settled || self.evaluated == evaluated {
+                return;
+            }
+        }
+    }
+
+    /// Goes through the cores that have `missing` more sets than the one at hand, in list order from
+    /// the candidate number `from` on, until the answer is known. The core it is known at stays.
+    fn settles_with(&mut self, tick: &mut Tick<'_>, missing: usize, from: usize) -> bool {
         if missing == 0 {
-            return self.is_accepted(tick);
+            let is_too_late = self.first.is_some_and(|first| precedes(&first, &self.core));
+            return is_too_late || self.is_closed(tick);
         }
         for i in from..(self.candidates.len() + 1).saturating_sub(missing) {
             let task = self.candidates[i];
-            if tick.stack[task].excluded().intersects(&self.active) {
+            let frozen = self.hierarchy.frozen();
+            if !self.extends_core(tick, task) {
                 continue;
             }
-            let frozen = self.hierarchy.frozen();
-            if self.high_priority.contains(task) {
-                let rate = tick.frozen_rate(task);
-                if !self
-                    .hierarchy
-                    .freeze(tick.stack, tick.evaluation, task, rate)
-                {
-                    continue;
-                }
-            }
-            self.active.insert(task);
-            let is_found = self.finds_one_of_size(tick, missing - 1, i + 1);
+            self.core.insert(task);
+            let is_settled = self.settles_with(tick, missing - 1, i + 1);
             self.hierarchy.release_to(frozen);
-            if is_found {
+            if is_settled {
                 return true;
             }
-            self.active.remove(task);
+            self.core.remove(task);
         }
         false
     }
 
-    /// Whether, at the velocity of this mode, no inactive set is left or driven further out.
-    fn is_accepted(&mut self, tick: &mut Tick<'_>) -> bool {
+    /// Whether a set below those of the core makes a larger one with them. If it has high priority,
+    /// it is then frozen.
+    fn extends_core(&mut self, tick: &mut Tick<'_>, task: TaskId) -> bool {
+        let (stack, hierarchy) = (tick.stack, &mut self.hierarchy);
+        if stack[task].excluded().intersects(&self.core) {
+            return false;
+        }
+        if self.high_priority.contains(task) {
+            let rate = frozen_rate(stack, tick.borders, tick.evaluation, task);
+            hierarchy.freeze(stack, tick.evaluation, task, rate)
+        } else {
+            self.is_first_look || !hierarchy.depends(stack, tick.evaluation, task, &self.core)
+        }
+    }
+
+    /// Whether the core is its own closure, and so the answer. A larger closure is kept.
+    fn is_closed(&mut self, tick: &mut Tick<'_>) -> bool {
+        let core = self.core;
+        self.find_velocity(tick, &core);
+        let mut closure = core;
+        for &(task, allowed) in &self.at_border {
+            if core.contains(task) {
+                continue;
+            }
+            let rate = dot(tick.evaluation.jacobian(tick.stack, task), tick.velocity);
+            let rate = if rate.abs() <= STILL { 0.0 } else { rate };
+            // NaN passes; the controller reports it.
+            if rate < allowed.min || rate > allowed.max {
+                self.leaving[task.index()] = rate + tick.evaluation.drift(task);
+                let is_excluded = tick.stack[task].excluded().intersects(&closure);
+                if is_excluded || self.high_priority.contains(task) {
+                    return false;
+                }
+                closure.insert(task);
+            }
+        }
+        if closure == core {
+            self.first = Some(core);
+            return true;
+        }
+        if self.is_first_look {
+            self.open.push((core, closure));
+        } else {
+            self.keep_if_closure(tick, &core, &closure);
+        }
+        false
+    }
+
+    /// Keeps a closure that is the first so far. It is one if what it adds to the core, of which the
+    /// high-priority sets are frozen, depends on the rows above.
+    fn keep_if_closure(&mut self, tick: &mut Tick<'_>, core: &ActiveSet, closure: &ActiveSet) {
+        let comes_first = self.first.is_none_or(|first| precedes(closure, &first));
+        let mut added = closure.iter().filter(|&task| !core.contains(task));
+        let hierarchy = &mut self.hierarchy;
+        if comes_first
+            && added.all(|task| hierarchy.depends(tick.stack, tick.evaluation, task, core))
+        {
+            self.first = Some(*closure);
+        }
+    }
+
+    /// Freezes the high-priority sets of a mode and nothing else.
+    fn freeze_alone(&mut self, tick: &mut Tick<'_>, mode: &ActiveSet) {
+        self.hierarchy.release_to(0);
+        for task in mode.iter() {
+            if self.high_priority.contains(task) {
+                let rate = frozen_rate(tick.stack, tick.borders, tick.evaluation, task);
+                self.hierarchy
+                    .freeze(tick.stack, tick.evaluation, task, rate);
+            }
+        }
+    }
+
+    fn find_velocity(&mut self, tick: &mut Tick<'_>, mode: &ActiveSet) {
         self.evaluated += 1;
         self.hierarchy
-            .velocity(tick.stack, tick.evaluation, &self.active, tick.velocity);
-        self.at_border.iter().all(|(task, allowed)| {
-            self.active.contains(*task) || {
-                let rate = dot(tick.evaluation.jacobian(tick.stack, *task), tick.velocity);
-                let rate = if rate.abs() <= STILL { 0.0 } else { rate };
-                // True for NaN, which the controller reports.
-                let stays = !(rate < allowed.min || rate > allowed.max);
-                if !stays {
-                    self.leaving[task.index()] = rate + tick.evaluation.drift(*task);
-                }
-                stays
-            }
-        })
+            .velocity(tick.stack, tick.evaluation, mode, tick.velocity);
     }
+}
+
+/// Whether a mode comes before another in the order of the rule.
+fn precedes(mode: &ActiveSet, other: &ActiveSet) -> bool {
+    let by_size = mode.len().cmp(&other.len());
+    by_size.then_with(|| mode.iter().cmp(other.iter())).is_lt()
 }

@@ -111,6 +111,12 @@ impl Level {
 pub struct Stack {
     dof: usize,
     levels: Vec<Level>,
+    /// Number of sets above the first equality task.
+    high_priority: usize,
+    /// How often tasks' own parameters may have been changed.
+    revision: u64,
+    /// How often what is asked of sets may have been changed.
+    set_revision: u64,
 }
 
 impl Stack {
@@ -124,6 +130,7 @@ impl Stack {
                 .position
                 .map(|(min, max)| Interval { min, max });
             if let Some(interval) = limits.filter(Interval::is_valid) {
+                stack.high_priority += 1;
                 stack.levels.push(Level {
                     name: alloc::format!("limit/{}", joint.name),
                     task: Box::new(JointPosition::of(index)),
@@ -146,6 +153,9 @@ impl Stack {
         Self {
             dof: robot.dof(),
             levels: Vec::new(),
+            high_priority: 0,
+            revision: 0,
+            set_revision: 0,
         }
     }
 
@@ -199,7 +209,7 @@ impl Stack {
         interval: Interval,
         gain: Option<f64>,
     ) -> Result<TaskId, StackError> {
-        let low_priority = self.first_equality() < self.levels.len();
+        let low_priority = self.high_priority < self.levels.len();
         let goal = check_set(task.dimension(), interval)
             .and_then(|()| match gain {
                 Some(gain) => check_gain(gain),
@@ -234,6 +244,10 @@ impl Stack {
                 }
             })
             .map_err(|reason| error(name, reason))?;
+        let is_highest = self.high_priority == self.levels.len();
+        if is_highest && matches!(goal, Goal::Set { .. }) {
+            self.high_priority += 1;
+        }
         self.levels.push(Level {
             name: name.to_string(),
             task,
@@ -286,6 +300,13 @@ impl Stack {
             .map(|(i, level)| (TaskId::new(i), level))
     }
 
+    /// The sets above the first equality task.
+    #[inline]
+    pub(crate) fn high_priority_sets(&self) -> impl Iterator<Item = (TaskId, &Level)> {
+        let sets = self.levels[..self.high_priority].iter().enumerate();
+        sets.map(|(i, level)| (TaskId::new(i), level))
+    }
+
     /// Whether a set moves in by itself while it is outside.
     pub(crate) fn recovers(&self, task: TaskId) -> bool {
         matches!(
@@ -324,15 +345,19 @@ impl Stack {
     /// Whether a task stands above the first equality task.
     #[inline]
     pub fn is_high_priority(&self, task: TaskId) -> bool {
-        task.index() < self.first_equality()
+        task.index() < self.high_priority
     }
 
-    /// Index of the first equality task; the number of tasks if there is none.
-    fn first_equality(&self) -> usize {
-        self.levels
-            .iter()
-            .position(|level| level.interval().is_none())
-            .unwrap_or(self.levels.len())
+    /// Another number after every change of what is asked of a set.
+    #[inline]
+    pub(crate) fn set_revision(&self) -> u64 {
+        self.set_revision
+    }
+
+    /// Another number after every access that may have changed a task's own parameters.
+    #[inline]
+    pub(crate) fn revision(&self) -> u64 {
+        self.revision
     }
 }
 

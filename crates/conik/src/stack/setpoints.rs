@@ -55,6 +55,7 @@ impl Setpoints<'_> {
         new_rates: BoundRates,
     ) -> Result<(), StackError> {
         let new_interval = new_interval.into();
+        self.stack.set_revision = self.stack.set_revision.wrapping_add(1);
         self.change(task, |level_goal, dimension| {
             check_set(dimension, new_interval)?;
             check_rates(new_rates)?;
@@ -75,6 +76,7 @@ impl Setpoints<'_> {
     /// outside, as far as all others and the joints' limits allow; `None`: it is only kept from
     /// getting worse, and moves in as the tasks below move it.
     pub fn set_recovery(&mut self, task: TaskId, speed: Option<f64>) -> Result<(), StackError> {
+        self.stack.set_revision = self.stack.set_revision.wrapping_add(1);
         self.change(task, |level_goal, _| {
             if let Some(speed) = speed {
                 check_speed(speed)?;
@@ -106,6 +108,7 @@ impl Setpoints<'_> {
 
     /// A task as its own type, to change its parameters; `None` if it is of another type.
     pub fn task_mut<T: Task>(&mut self, task: TaskId) -> Option<&mut T> {
+        self.stack.revision = self.stack.revision.wrapping_add(1);
         let task: &mut dyn Any = &mut *self.stack.levels[task.index()].task;
         task.downcast_mut()
     }

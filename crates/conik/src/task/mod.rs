@@ -26,6 +26,9 @@ pub(crate) const DENOMINATOR_EPSILON: f64 = 1e-9;
 /// A task: its value and its Jacobian in a configuration.
 ///
 /// Implementations must not allocate, and must give finite numbers for every finite configuration.
+/// What they give depends on the configuration and on the task's own parameters alone, which change
+/// only through [`Setpoints::task_mut`](crate::Setpoints::task_mut), not behind a shared reference:
+/// what was computed for a configuration is used again in it.
 pub trait Task: Any + Debug + Send {
     /// Number of components m. Set-based tasks have one.
     fn dimension(&self) -> usize;
