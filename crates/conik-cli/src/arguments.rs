@@ -29,6 +29,8 @@ pub enum Command {
     Plot(PlotArguments),
     /// Emulate a Universal Robots controller on its real ports, until Ctrl-C
     Emulate(EmulateArguments),
+    /// Measure this computer and the link to a controller, before anything moves
+    Preflight(PreflightArguments),
     /// Write a commented scenario to start from
     Init(InitArguments),
     /// Print the JSON Schema of the scenario file
@@ -138,6 +140,27 @@ pub struct EmulateArguments {
     /// Stand where this scenario starts
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub scenario: Option<PathBuf>,
+}
+
+/// `conik preflight`
+#[derive(Debug, Args)]
+#[command(
+    after_help = "Nothing is written to the controller. Exit status: 0 fit or doubtful; \
+    1 not fit, or the controller cannot be reached; 2 bad usage."
+)]
+pub struct PreflightArguments {
+    /// Host name or address of the controller
+    #[arg(value_parser = NonEmptyStringValueParser::new())]
+    pub host: String,
+    /// How long to look
+    #[arg(long, value_name = "SECONDS", default_value_t = 10.0)]
+    pub seconds: f64,
+    /// At this rate [default: the controller's own]
+    #[arg(long, value_name = "HZ", allow_negative_numbers = true)]
+    pub rate_hz: Option<f64>,
+    /// Added to the controller's ports, as in `conik emulate --port-offset`
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    pub port_offset: u16,
 }
 
 /// Series of controllers.

@@ -22,6 +22,7 @@ fn main() -> ExitCode {
         Command::Check(arguments) => commands::check::check(&arguments),
         Command::Plot(arguments) => commands::plot::plot(&arguments),
         Command::Emulate(arguments) => commands::emulate::emulate(&arguments),
+        Command::Preflight(arguments) => commands::preflight::preflight(&arguments),
         Command::Init(arguments) => commands::init::init(&arguments),
         Command::Schema => commands::schema::schema(),
         Command::Completions { shell } => commands::completions::completions(shell),

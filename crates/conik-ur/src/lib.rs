@@ -56,7 +56,9 @@
 pub mod driver;
 pub mod emulator;
 pub mod program;
+pub mod realtime;
 pub mod registers;
 pub mod session;
 pub mod status;
+pub mod timing;
 pub mod wire;

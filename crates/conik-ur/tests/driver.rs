@@ -7,22 +7,30 @@ use conik::JointVec;
 use conik_sim::arm::{Arm, ArmError, Reference};
 use conik_ur::driver::{UrArm, UrConfig};
 use std::time::Duration;
-use stub::{Behaviour, Change, Stub, Written};
+use stub::{Behaviour, Change, LinkEnd, Stub, Written};
 
 const RATE: f64 = 125.0;
 
 /// A guard against hanging only; no verdict depends on it.
 const HANG: Duration = Duration::from_secs(20);
 
+/// What the driver lets pass without a reference [s]: more than this computer ever stalls.
+const BRIDGED: f64 = 4.5;
+
 fn arm(stub: &Stub) -> UrArm {
-    UrArm::new(UrConfig {
+    UrArm::new(config(stub))
+}
+
+fn config(stub: &Stub) -> UrConfig {
+    UrConfig {
         rtde_port: stub.rtde_port,
         script_port: stub.script_port,
         link_timeout: HANG,
         program_timeout: HANG,
         stop_timeout: HANG,
+        extrapolate_s: BRIDGED,
         ..UrConfig::new("127.0.0.1")
-    })
+    }
 }
 
 fn at(q: [f64; 6]) -> Reference {
@@ -176,51 +184,155 @@ fn no_number_that_is_not_finite_goes_out() {
     }
 }
 
-/// Each way in which a controller can end a run, the fault's name, and whether the controller's
-/// program is over by then (the stop needs one package more if it is not).
+/// Each way in which a controller can end a run, the fault's name, and how many packages with the
+/// command to stop may follow: none where the program is over, more than one never.
 #[test]
 fn whatever_ends_a_run_is_latched_by_name_and_nothing_moves_the_arm_any_more() {
-    let cases: [(&str, Change); 14] = [
-        ("protective-stop", |o| o.safety_bits = 1 << 2 | 1 << 10),
-        ("emergency-stop", |o| o.safety_bits = 1 << 7 | 1 << 2),
-        ("emergency-stop", |o| o.safety_bits = 1 << 6),
-        ("emergency-stop", |o| o.safety_bits = 1 << 5),
-        ("safeguard-stop", |o| o.safety_bits = 1 | 1 << 4),
-        ("safety-fault", |o| o.safety_bits = 1 << 9),
-        ("safety-fault", |o| o.safety_bits = 0),
-        ("robot-not-running", |o| o.robot_mode = 5),
-        ("speed-slider", |o| o.speed_slider = 0.5),
-        ("program-stopped", |o| {
+    let cases: [(&str, usize, Change); 19] = [
+        ("protective-stop", 1, |o| {
+            o.safety_bits = 1 << 2 | 1 << 10;
+        }),
+        ("emergency-stop", 0, |o| {
+            o.safety_bits = 1 << 7 | 1 << 2;
+            o.runtime_state = 1;
+        }),
+        ("emergency-stop", 1, |o| o.safety_bits = 1 << 6),
+        ("emergency-stop", 1, |o| o.safety_bits = 1 << 5),
+        ("safeguard-stop", 1, |o| o.safety_bits = 1 | 1 << 4),
+        ("safety-fault", 1, |o| o.safety_bits = 1 << 9),
+        ("safety-fault", 1, |o| o.safety_bits = 1 << 3),
+        ("safety-fault", 1, |o| o.safety_bits = 0),
+        ("robot-not-running", 1, |o| o.robot_mode = 5),
+        ("speed-slider", 1, |o| o.speed_slider = 0.5),
+        ("program-stopped", 0, |o| {
             o.runtime_state = 1;
             o.robot_bits = 1;
         }),
-        ("program-stopped", |o| o.session += 1),
-        ("references-late", |o| o.phase = 4),
-        ("paused", |o| o.runtime_state = 4),
-        ("clock-jump", |o| o.timestamp = 41.0),
+        ("program-stopped", 0, |o| o.session += 1),
+        ("references-late", 1, |o| o.phase = 4),
+        ("references-late", 1, |o| o.timestamp += BRIDGED + 1.0),
+        ("paused", 1, |o| o.runtime_state = 4),
+        ("clock-jump", 1, |o| o.timestamp = 41.0),
+        ("clock-jump", 1, |o| o.timestamp -= 0.008),
+        ("clock-jump", 1, |o| o.timestamp += 100.0),
+        ("bad-feedback", 1, |o| o.actual_q = Some([f64::NAN; 6])),
     ];
-    for (name, change) in cases {
+    for (name, stops, change) in cases {
         let behaviour = Behaviour {
             after: Some((3, change)),
             ..Behaviour::default()
         };
-        let q = behaviour.q;
         let stub = Stub::start(behaviour);
         let mut arm = arm(&stub);
-        arm.start(RATE).unwrap();
-        let fault = run(&mut arm, &[at(q); 10]).unwrap_err();
-        assert_eq!(fault.name, name);
-        for _ in 0..3 {
-            assert_eq!(arm.send(&at(q)), Err(fault.clone()));
-            assert_eq!(arm.next_cycle(), Err(fault.clone()));
-        }
+        latches(&mut arm, name);
         arm.stop().unwrap();
-        assert_eq!(arm.send(&at(q)), Err(fault.clone()), "after stop too");
-        let written = stub.written();
-        assert_eq!(references(&written).len(), 3, "{name}");
-        let after = written.iter().skip_while(|package| package.counter < 3);
-        assert!(after.skip(1).all(|package| package.command == 2), "{name}");
+        stays_latched(&mut arm, name);
+        ends_with(&stub.written(), name, stops);
     }
+}
+
+#[test]
+fn a_link_that_ends_is_latched_by_name_and_nothing_moves_the_arm_any_more() {
+    let cases: [(&str, usize, Change); 3] = [
+        ("link-lost", 0, |o| o.link = LinkEnd::Closed),
+        ("link-lost", 1, |o| o.link = LinkEnd::Silent),
+        ("protocol", 1, |o| o.link = LinkEnd::Garbage),
+    ];
+    for (name, stops, change) in cases {
+        let behaviour = Behaviour {
+            after: Some((3, change)),
+            ..Behaviour::default()
+        };
+        let stub = Stub::start(behaviour);
+        let mut arm = UrArm::new(UrConfig {
+            link_timeout: Duration::from_secs(1),
+            ..config(&stub)
+        });
+        latches(&mut arm, name);
+        assert_eq!(arm.stop().unwrap_err().name, "stop-unconfirmed");
+        stays_latched(&mut arm, name);
+        ends_with(&stub.written(), name, stops);
+    }
+}
+
+/// Runs until the fault after the third reference, and tries to go on.
+fn latches(arm: &mut UrArm, name: &str) {
+    let q = Behaviour::default().q;
+    arm.start(RATE).unwrap();
+    let fault = run(arm, &[at(q); 10]).unwrap_err();
+    assert_eq!(fault.name, name, "{fault}");
+    for _ in 0..3 {
+        assert_eq!(arm.send(&at(q)), Err(fault.clone()));
+        assert_eq!(arm.next_cycle(), Err(fault.clone()));
+        assert_eq!(arm.start(RATE), Err(fault.clone()));
+        assert_eq!(arm.rearm(), Err(fault.clone()), "not before it is stopped");
+    }
+}
+
+/// A stopped arm does nothing until it is armed anew.
+fn stays_latched(arm: &mut UrArm, name: &str) {
+    let q = Behaviour::default().q;
+    assert_eq!(arm.send(&at(q)).unwrap_err().name, name);
+    assert_eq!(arm.start(RATE).unwrap_err().name, name);
+    assert_eq!(arm.fault().unwrap().name, name);
+    arm.rearm().unwrap();
+    assert_eq!(arm.fault(), None);
+    assert_eq!(arm.send(&at(q)).unwrap_err().name, "not-started");
+}
+
+fn ends_with(written: &[Written], name: &str, most_stops: usize) {
+    assert_eq!(references(written).len(), 3, "{name}");
+    let last = written.iter().rposition(|package| package.command == 1);
+    let after = &written[last.unwrap() + 1..];
+    assert!(after.iter().all(|package| package.command == 2), "{name}");
+    assert!(after.len() <= most_stops, "{name}: {after:?}");
+}
+
+#[test]
+fn a_reference_that_took_too_long_is_not_sent() {
+    let stub = Stub::start(Behaviour::default());
+    let q = Behaviour::default().q;
+    let mut arm = UrArm::new(UrConfig {
+        extrapolate_s: 0.2,
+        ..config(&stub)
+    });
+    arm.start(RATE).unwrap();
+    arm.next_cycle().unwrap();
+    // The first may take any time: nothing moves yet.
+    std::thread::sleep(Duration::from_millis(250));
+    arm.send(&at(q)).unwrap();
+    arm.next_cycle().unwrap();
+    std::thread::sleep(Duration::from_millis(250));
+    let fault = arm.send(&at(q)).unwrap_err();
+    assert_eq!(fault.name, "references-late");
+    assert!(fault.detail.contains("25 cycles (0.200 s)"), "{fault}");
+    assert_eq!(arm.next_cycle(), Err(fault));
+    drop(arm);
+    assert_eq!(references(&stub.written()).len(), 1);
+}
+
+#[test]
+fn a_reference_that_accelerates_too_much_is_refused_by_joint_value_and_limit() {
+    let stub = Stub::start(Behaviour::default());
+    let mut q = Behaviour::default().q;
+    let mut arm = UrArm::new(UrConfig {
+        acceleration_limit: Some([10.0; 6]),
+        ..config(&stub)
+    });
+    arm.start(RATE).unwrap();
+    run(&mut arm, &[at(q)]).unwrap();
+    q[2] += 9.0 / RATE / RATE;
+    run(&mut arm, &[at(q)]).unwrap();
+    q[2] -= 3.0 / RATE / RATE;
+    let fault = run(&mut arm, &[at(q)]).unwrap_err();
+    assert_eq!(fault.name, "reference-refused");
+    for part in ["joint 3 (elbow)", "12.000000 rad/s²", "10.000000 rad/s²"] {
+        assert!(fault.detail.contains(part), "{fault}");
+    }
+    drop(arm);
+    let written = stub.written();
+    assert_eq!(references(&written).len(), 2);
+    assert!(written.iter().all(|package| package.q != q));
 }
 
 #[test]

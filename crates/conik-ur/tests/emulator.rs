@@ -128,6 +128,9 @@ fn an_arm_is_armed_anew_where_it_stands() {
     arm.stop().unwrap();
     assert_eq!(arm.start(125.0).unwrap_err().name, "protective-stop");
     emulator.inject(Injection::Release);
+    let fault = arm.start(125.0).unwrap_err();
+    assert_eq!(fault.name, "protective-stop", "latched, though it is over");
+    arm.rearm().unwrap();
     let q = arm.start(125.0).unwrap();
     assert!(q[0] > Q0[0]);
     assert_eq!(q, emulator.target_q());

@@ -5,6 +5,7 @@ pub mod completions;
 pub mod emulate;
 pub mod init;
 pub mod plot;
+pub mod preflight;
 pub mod run;
 pub mod schema;
 

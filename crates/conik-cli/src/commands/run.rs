@@ -23,10 +23,12 @@ use conik_sim::summarise::Summariser;
 use conik_sim::summary::{Outcome, Settings, Summary};
 use conik_ur::driver::{UrArm, UrConfig};
 use conik_ur::emulator::{Emulator, EmulatorConfig, EmulatorError, Pace, Series};
+use conik_ur::realtime::Realtime;
 
 use crate::arguments::RunArguments;
 use crate::explain::Explanations;
 use crate::failure::{Failure, with_causes};
+use crate::layout::wrapped;
 use crate::present;
 use crate::progress::Progress;
 
@@ -66,7 +68,8 @@ pub fn run(arguments: &RunArguments) -> Result<ExitCode, Failure> {
         explanations,
         progress,
     };
-    let finished = drive(experiment, driven.arm.as_mut(), listeners, &stop);
+    let urgently = driven.is_outside.then_some(!arguments.quiet);
+    let finished = drive(experiment, driven.arm.as_mut(), listeners, urgently, &stop);
     drop(driven);
     finish(arguments, &out, settings, finished)
 }
@@ -145,6 +148,8 @@ fn settings(scenario: &Scenario, experiment: &Experiment, robot: &str) -> Settin
 /// An arm, and what must live as long as it.
 struct Driven {
     arm: Box<dyn Arm + Send>,
+    /// Whether it may be one that moves, outside of this program.
+    is_outside: bool,
     /// Ends when the arm has let go of it.
     _emulator: Option<Emulator>,
 }
@@ -191,16 +196,15 @@ fn arm(
                 )));
             }
             let mut config = UrConfig::new(host);
-            for port in [&mut config.rtde_port, &mut config.script_port] {
-                *port = port
-                    .checked_add(arguments.port_offset)
-                    .ok_or_else(|| Failure::input("--port-offset: no port may exceed 65535"))?;
-            }
+            config
+                .offset_ports(arguments.port_offset)
+                .map_err(Failure::input)?;
             (Box::new(UrArm::new(config)), None)
         }
     };
     Ok(Driven {
         arm,
+        is_outside: emulator.is_none() && arguments.robot != "ideal",
         _emulator: emulator,
     })
 }
@@ -223,10 +227,13 @@ struct Finished {
     _log: LogWriter,
 }
 
+/// Drives the arm in a thread of its own; `urgently` asks for real-time priority, and says whether
+/// to print what was granted.
 fn drive(
     experiment: Experiment,
     arm: &mut (dyn Arm + Send),
     listeners: Listeners,
+    urgently: Option<bool>,
     stop: &AtomicBool,
 ) -> Finished {
     let Listeners {
@@ -240,6 +247,13 @@ fn drive(
     let ended = thread::scope(|scope| {
         let driver = scope.spawn(move || {
             let real_time = arm.is_real_time();
+            if let Some(print) = urgently {
+                let granted = Realtime::enter();
+                if print {
+                    // Nobody reading is no reason not to drive.
+                    let _ = super::print(&wrapped("", &format!("driving with {granted}")));
+                }
+            }
             run::run(
                 experiment,
                 arm,

@@ -95,3 +95,42 @@ fn nobody_listening_is_a_fault_with_a_name() {
         assert_eq!(property["holds"], false, "{name}");
     }
 }
+
+#[test]
+fn preflight_measures_an_emulator_in_another_process_and_moves_nothing() {
+    let folder = empty_folder("preflight");
+    let (emulator, offset) = emulator(&folder);
+    let line = format!("preflight 127.0.0.1 --port-offset {offset} --seconds 0.5");
+    let first = say(&folder, &line);
+    // Whether this computer is fit is its own affair; what is said must fit the verdict.
+    let verdict = match first.status {
+        Some(0) => ["fit: ", "doubtful: "],
+        _ => ["not fit: ", "not fit: "],
+    };
+    let said = |part: &str| first.stdout.lines().any(|line| line.starts_with(part));
+    assert!(verdict.into_iter().any(said), "{first:#?}");
+    for part in [
+        "UR CB3",
+        "a run could start",
+        "packages at 125 Hz",
+        "lateness",
+    ] {
+        assert!(first.stdout.contains(part), "{part}: {first:#?}");
+    }
+    // The pose that it found is still the pose, and the arm is free for a run.
+    let pose = |stdout: &str| {
+        stdout
+            .lines()
+            .find(|line| line.starts_with("joints at"))
+            .map(str::to_owned)
+    };
+    let second = say(&folder, &line);
+    assert!(pose(&first.stdout).is_some());
+    assert_eq!(pose(&second.stdout), pose(&first.stdout));
+
+    let impossible = say(&folder, &format!("{line} --rate-hz 500"));
+    assert_eq!(impossible.status, Some(1));
+    assert!(impossible.stderr.starts_with("error: rate-not-possible: "));
+    emulator.signal("INT");
+    assert_eq!(emulator.wait().status, Some(0));
+}

@@ -10,6 +10,15 @@ pub const RTDE_PORT: u16 = 30004;
 /// The controller's port that runs any program sent to it (the secondary interface).
 pub const SCRIPT_PORT: u16 = 30002;
 
+/// How much of its speed limit a joint's speed may change from one reference to the next where no
+/// acceleration limit is set.
+pub const SPEED_CHANGE_ALLOWED: f64 = 0.75;
+
+/// An offset with which a port would be none.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("--port-offset: no port may exceed 65535")]
+pub struct BadPortOffset;
+
 /// Where the controller is and how it is to be driven.
 #[derive(Clone, Debug, PartialEq)]
 pub struct UrConfig {
@@ -39,6 +48,10 @@ pub struct UrConfig {
     pub registers: RegisterBase,
     /// Speed that no reference may ask a joint to exceed [rad/s].
     pub speed_limit: [f64; JOINTS],
+    /// Acceleration that no two steps from reference to reference may ask of a joint [rad/s²].
+    /// `None`: from one reference to the next its speed may change by [`SPEED_CHANGE_ALLOWED`] of
+    /// its speed limit, which lets the jumps of a first-order control law pass.
+    pub acceleration_limit: Option<[f64; JOINTS]>,
     /// Magnitude that no reference may ask a joint to exceed [rad].
     pub position_limit: [f64; JOINTS],
     /// How far the first reference may be from the arm, besides one cycle at the speed limit [rad].
@@ -70,6 +83,7 @@ impl UrConfig {
             first_reference_within_s: 60.0,
             registers: RegisterBase::default(),
             speed_limit: [PI; JOINTS],
+            acceleration_limit: None,
             position_limit: [TAU; JOINTS],
             first_reference_tolerance: 1e-3,
             connect_timeout: Duration::from_secs(3),
@@ -77,5 +91,13 @@ impl UrConfig {
             program_timeout: Duration::from_secs(5),
             stop_timeout: Duration::from_secs(3),
         }
+    }
+
+    /// Adds `offset` to every port, as an emulator beside others has it.
+    pub fn offset_ports(&mut self, offset: u16) -> Result<(), BadPortOffset> {
+        for port in [&mut self.rtde_port, &mut self.script_port] {
+            *port = port.checked_add(offset).ok_or(BadPortOffset)?;
+        }
+        Ok(())
     }
 }

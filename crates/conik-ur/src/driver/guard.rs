@@ -1,6 +1,6 @@
 //! The last check of a reference before it goes to the arm: what fails is refused, never clamped.
 
-use super::config::UrConfig;
+use super::config::{SPEED_CHANGE_ALLOWED, UrConfig};
 use super::fault::{FIRST_REFERENCE_AWAY, REFERENCE_REFUSED};
 use crate::registers::JOINTS;
 use conik_sim::arm::{ArmError, Reference};
@@ -25,9 +25,18 @@ pub(super) struct Checked {
 pub(super) struct Guard {
     period_s: f64,
     speed_limit: [f64; JOINTS],
+    acceleration_limit: [f64; JOINTS],
     position_limit: [f64; JOINTS],
     first_tolerance: f64,
-    previous: Option<[f64; JOINTS]>,
+    previous: Option<Previous>,
+}
+
+/// The reference sent last.
+#[derive(Clone, Copy, Debug)]
+struct Previous {
+    q: [f64; JOINTS],
+    /// From the one before to it [rad]; zero for the first, to which nothing moved.
+    step: [f64; JOINTS],
 }
 
 impl Guard {
@@ -35,6 +44,10 @@ impl Guard {
         Self {
             period_s,
             speed_limit: config.speed_limit,
+            acceleration_limit: config.acceleration_limit.unwrap_or_else(|| {
+                let change = |speed: f64| SPEED_CHANGE_ALLOWED * speed / period_s;
+                config.speed_limit.map(change)
+            }),
             position_limit: config.position_limit,
             first_tolerance: config.first_reference_tolerance,
             previous: None,
@@ -72,14 +85,18 @@ impl Guard {
                 )));
             }
         }
-        self.previous = Some(q);
+        let step = match &self.previous {
+            Some(previous) => std::array::from_fn(|joint| q[joint] - previous.q[joint]),
+            None => [0.0; JOINTS],
+        };
+        self.previous = Some(Previous { q, step });
         Ok(Checked { q, qd })
     }
 
     fn check_step(&self, joint: usize, q: f64, present: f64) -> Result<(), ArmError> {
         let limit = self.speed_limit[joint];
         let cycle_at_limit = limit * self.period_s;
-        let Some(previous) = self.previous else {
+        let Some(previous) = &self.previous else {
             let tolerance = self.first_tolerance + cycle_at_limit;
             let away = (q - present).abs();
             if away > tolerance {
@@ -93,13 +110,27 @@ impl Guard {
             }
             return Ok(());
         };
-        let step = (q - previous[joint]).abs();
-        // The second term is the rounding of the difference of two angles.
-        if step > cycle_at_limit * (1.0 + SLACK) + 4.0 * f64::EPSILON * q.abs().max(1.0) {
+        // What the difference of two angles may lose.
+        let rounding = 4.0 * f64::EPSILON * q.abs().max(1.0);
+        let step = q - previous.q[joint];
+        if step.abs() > cycle_at_limit * (1.0 + SLACK) + rounding {
             return Err(refused(format!(
-                "{} would move {step:.6} rad in one cycle, {:.6} rad/s; its limit is {limit:.6} \
-                 rad/s",
+                "{} would move {:.6} rad in one cycle, {:.6} rad/s; its limit is {limit:.6} rad/s",
                 name(joint),
+                step.abs(),
+                step.abs() / self.period_s
+            )));
+        }
+        let limit = self.acceleration_limit[joint];
+        let change = (step - previous.step[joint]).abs();
+        let square = self.period_s * self.period_s;
+        if change > limit * square * (1.0 + SLACK) + 2.0 * rounding {
+            return Err(refused(format!(
+                "{} would accelerate with {:.6} rad/s² (from {:.6} to {:.6} rad/s in one cycle); \
+                 its limit is {limit:.6} rad/s²",
+                name(joint),
+                change / square,
+                previous.step[joint] / self.period_s,
                 step / self.period_s
             )));
         }
@@ -158,15 +189,61 @@ mod tests {
         let mut guard = guard();
         let mut q = [0.0, -1.5, 1.2, 6.0, -6.0, 0.0];
         guard.check(&reference(q), &q).unwrap();
-        for _ in 0..3 {
-            q = q.map(|angle| angle + PI * PERIOD);
+        for speed in [0.5 * PI, PI, PI, PI] {
+            q = q.map(|angle| angle + speed * PERIOD);
             guard.check(&reference(q), &[0.0; 6]).unwrap();
         }
-        q[2] += 0.04;
+        let before = q[2];
+        q = q.map(|angle| angle + PI * PERIOD);
+        q[2] = before + 0.04;
         let fault = guard.check(&reference(q), &[0.0; 6]).unwrap_err();
         assert_eq!(fault.name, REFERENCE_REFUSED);
         for part in ["joint 3 (elbow)", "5.000000 rad/s", "3.141593 rad/s"] {
             assert!(fault.detail.contains(part), "{fault}");
+        }
+    }
+
+    #[test]
+    fn acceleration_at_the_limit_passes_and_above_it_names_joint_value_and_limit() {
+        let limit = 20.0;
+        let config = UrConfig {
+            acceleration_limit: Some([limit; 6]),
+            ..UrConfig::new("arm")
+        };
+        let start = [0.0, -1.5, 1.2, 6.0, -6.0, 0.0];
+        let mut guard = Guard::new(&config, PERIOD);
+        let mut q = start;
+        let mut speed = 0.0;
+        guard.check(&reference(q), &q).unwrap();
+        for direction in [1.0, 1.0, -1.0, -1.0, -1.0, 1.0] {
+            speed += direction * limit * PERIOD;
+            q = q.map(|angle| angle + speed * PERIOD);
+            guard.check(&reference(q), &start).unwrap();
+        }
+        q[1] += (speed + 30.0 * PERIOD) * PERIOD;
+        let fault = guard.check(&reference(q), &start).unwrap_err();
+        assert_eq!(fault.name, REFERENCE_REFUSED);
+        for part in ["joint 2 (shoulder)", "30.000000 rad/s²", "20.000000 rad/s²"] {
+            assert!(fault.detail.contains(part), "{fault}");
+        }
+    }
+
+    #[test]
+    fn nothing_starts_with_a_jerk() {
+        // From standstill: neither the second reference nor a reversal may change the speed at once.
+        for (speeds, passes) in [
+            (&[0.74 * PI][..], true),
+            (&[0.76 * PI][..], false),
+            (&[0.5 * PI, -0.3 * PI][..], false),
+        ] {
+            let mut guard = guard();
+            let mut q = [0.0; 6];
+            guard.check(&reference(q), &q).unwrap();
+            let checked = speeds.iter().try_for_each(|speed| {
+                q[3] += speed * PERIOD;
+                guard.check(&reference(q), &[0.0; 6]).map(|_| ())
+            });
+            assert_eq!(checked.is_ok(), passes, "{speeds:?}");
         }
     }
 

@@ -4,11 +4,12 @@ use super::config::UrConfig;
 use super::connect::connect;
 use super::fault;
 use super::guard::Guard;
+use super::pace::{self, Pace, Stamp};
 use super::plan;
 use crate::program::ServoProgram;
 use crate::registers::{Command, JOINTS, Phase};
 use crate::session::{Session, SessionError};
-use crate::status::Status;
+use crate::status::{Status, runtime_state};
 use crate::wire::Value;
 use conik_sim::arm::{ArmError, Feedback, Reference};
 use std::io::Write;
@@ -22,7 +23,9 @@ pub(super) struct Link {
     program: ServoProgram,
     guard: Guard,
     status: Status,
-    silence_allowed: Duration,
+    /// When `status` came.
+    status_came: Instant,
+    pace: Pace,
     stop_timeout: Duration,
     /// What was sent last; a stop repeats it.
     sent: Sent,
@@ -65,22 +68,25 @@ impl Link {
         let status = subscribe(
             &mut session,
             config,
-            plan::controller_rate(config, version) / every,
+            plan::output_frequency(plan::controller_rate(config, version), every),
         )
         .map_err(|error| fault::of_session(&error))?;
-        if let Some(fault) = fault::of_arm(&status) {
-            return Err(fault);
+        if let Some(hindrance) = plan::hindrance(&status) {
+            return Err(hindrance);
         }
-        if !status.program_is_still() {
-            let detail = "a program runs on the controller: stop it at the pendant first";
-            return Err(ArmError::new(fault::OTHER_PROGRAM, detail));
-        }
+        let pace = Pace {
+            cycle_s: program.cycle_s,
+            bridged_cycles: program.extrapolated_cycles,
+            leap_allowed: config.link_timeout,
+            real_time: config.real_time,
+        };
         let mut link = Self {
             session,
             program,
             guard: Guard::new(config, 1.0 / rate_hz),
             status,
-            silence_allowed: config.link_timeout,
+            status_came: Instant::now(),
+            pace,
             stop_timeout: config.stop_timeout,
             sent: Sent {
                 counter: 0,
@@ -152,32 +158,28 @@ impl Link {
 
     /// Waits for the controller's next cycle.
     pub(super) fn next_cycle(&mut self) -> Result<Feedback, ArmError> {
-        let before = self.status.timestamp;
+        let before = self.stamp();
         let passed_over = self.read()?;
-        let elapsed = self.status.timestamp - before;
         if let Some(fault) = fault::of_run(&self.status, self.program.session) {
             return Err(fault);
         }
-        // Before the first reference nobody counts: the caller may have taken any time.
-        let first = self.turn == Turn::FirstCycle;
-        let leap = !first && elapsed > self.silence_allowed.as_secs_f64();
-        if elapsed <= 0.0 || leap {
-            let detail = format!(
-                "the controller's clock went from {before:.3} s to {:.3} s: it was restarted or \
-                 stood still",
-                self.status.timestamp
-            );
-            return Err(ArmError::new(fault::CLOCK_JUMP, detail));
-        }
+        let missed_cycles = if self.turn == Turn::FirstCycle {
+            pace::goes_on(before, self.stamp()).map(|()| 0)?
+        } else {
+            self.pace.missed(before, self.stamp(), passed_over)?
+        };
         self.turn = Turn::Reference;
         Ok(Feedback {
             q: Some(self.status.actual_q.into()),
-            missed_cycles: if first {
-                0
-            } else {
-                passed_over.max(whole_cycles(elapsed / self.program.cycle_s).saturating_sub(1))
-            },
+            missed_cycles,
         })
+    }
+
+    fn stamp(&self) -> Stamp {
+        Stamp {
+            timestamp: self.status.timestamp,
+            came: self.status_came,
+        }
     }
 
     /// Sends the reference of the present cycle, if it may be sent.
@@ -185,6 +187,10 @@ impl Link {
         if self.turn != Turn::Reference {
             let detail = "one reference per cycle: wait for the next cycle before sending another";
             return Err(ArmError::new(fault::OUT_OF_TURN, detail));
+        }
+        // The first may take any time: nothing moves yet.
+        if self.sent.counter != 0 {
+            self.pace.answer_after(self.status_came.elapsed())?;
         }
         let checked = self.guard.check(reference, &self.status.target_q)?;
         self.sent = Sent {
@@ -197,9 +203,16 @@ impl Link {
     }
 
     /// Lets the servo program stop the arm and end, and waits until it has.
+    ///
+    /// Where the program is over already, nothing is sent. One that is paused is told all the same:
+    /// it then ends as soon as someone resumes it, instead of driving to where it once was sent.
     pub(super) fn stop(mut self) -> Result<(), ArmError> {
         let deadline = Instant::now() + self.stop_timeout;
         let end = loop {
+            let ours = self.status.session == self.program.session;
+            if !ours || self.status.runtime_state == runtime_state::STOPPED {
+                return Ok(());
+            }
             if let Err(fault) = self.write(Command::Stop).and_then(|()| self.read()) {
                 break fault.detail;
             }
@@ -231,6 +244,7 @@ impl Link {
             .session
             .latest()
             .map_err(|error| fault::of_session(&error))?;
+        self.status_came = Instant::now();
         self.status = Status::from_values(&latest.values).ok_or_else(|| {
             fault::of_session(&SessionError::OutOfOrder("the agreed output fields"))
         })?;
@@ -258,17 +272,9 @@ fn subscribe(
     config: &UrConfig,
     frequency_hz: f64,
 ) -> Result<Status, SessionError> {
-    // A controller sends in every floor(rate / frequency)-th cycle: a hair less than the frequency
-    // keeps rounding from making that one cycle too few.
-    let frequency_hz = (frequency_hz * (1.0 - 1e-9)).max(1.0);
     session.subscribe(frequency_hz, &Status::fields(config.registers))?;
     session.claim(&config.registers.inputs())?;
     session.start()?;
     let latest = session.latest()?;
     Status::from_values(&latest.values).ok_or(SessionError::OutOfOrder("the agreed output fields"))
-}
-
-#[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)] // Saturates; never negative here.
-fn whole_cycles(cycles: f64) -> u64 {
-    cycles.round() as u64
 }

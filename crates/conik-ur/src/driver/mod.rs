@@ -5,7 +5,9 @@
 //! | `config` | where the controller is and how it is to be driven |
 //! | `connect` | TCP connections with time-outs |
 //! | `link` | one connection, from the handshake to the stop |
+//! | `pace` | what is late, and what is no clock |
 //! | `plan` | what is settled before: rate, registers, program |
+//! | `preflight` | a look at controller and link before anything moves |
 //! | `guard` | the last check of a reference before it goes out |
 //! | `fault` | the names of all faults |
 
@@ -14,7 +16,9 @@ mod connect;
 pub mod fault;
 mod guard;
 mod link;
+mod pace;
 mod plan;
+pub mod preflight;
 
 pub use config::UrConfig;
 
@@ -26,8 +30,8 @@ use link::Link;
 /// A UR arm that follows references.
 ///
 /// A fault is latched: from then on nothing but a stop goes to the arm, and every call reports the
-/// same fault, until `stop` and then `start` arm it anew at the pose where it stands. Dropping a
-/// started arm stops it.
+/// same fault. It takes `stop`, [`rearm`](Self::rearm) and `start`, in this order, to move again, and
+/// then only from the pose where the arm stands. Dropping a started arm stops it.
 #[derive(Debug)]
 pub struct UrArm {
     config: UrConfig,
@@ -50,6 +54,24 @@ impl UrArm {
         self.link.as_ref().map(Link::status)
     }
 
+    /// The fault that is latched.
+    pub fn fault(&self) -> Option<&ArmError> {
+        self.fault.as_ref()
+    }
+
+    /// Clears a latched fault, so that a stopped arm may be started again. Nothing is sent.
+    pub fn rearm(&mut self) -> Result<(), ArmError> {
+        if self.link.is_some() {
+            let detail = "the arm is not stopped: stop it before it is armed again";
+            return Err(self
+                .fault
+                .clone()
+                .unwrap_or_else(|| ArmError::new(fault::ALREADY_STARTED, detail)));
+        }
+        self.fault = None;
+        Ok(())
+    }
+
     /// Runs `action` on the link unless a fault is latched, and latches the fault that it meets.
     fn unless_faulty<T>(
         &mut self,
@@ -68,14 +90,13 @@ impl UrArm {
 
 impl Arm for UrArm {
     fn start(&mut self, rate_hz: f64) -> Result<JointVec, ArmError> {
+        if let Some(fault) = &self.fault {
+            return Err(fault.clone());
+        }
         if self.link.is_some() {
             let detail = "the arm is already started: stop it before it is started again";
-            return Err(self
-                .fault
-                .clone()
-                .unwrap_or_else(|| ArmError::new(fault::ALREADY_STARTED, detail)));
+            return Err(ArmError::new(fault::ALREADY_STARTED, detail));
         }
-        self.fault = None;
         let link = Link::open(&self.config, rate_hz)?;
         let q = link.status().target_q;
         self.link = Some(link);

@@ -3,6 +3,7 @@
 use super::config::UrConfig;
 use super::fault;
 use crate::program::ServoProgram;
+use crate::status::Status;
 use crate::wire::ControllerVersion;
 use conik_sim::arm::ArmError;
 use std::time::{SystemTime, UNIX_EPOCH};
@@ -74,6 +75,21 @@ pub(super) fn cycles_per_reference(
         possible.join(", ")
     );
     Err(ArmError::new(fault::RATE_NOT_POSSIBLE, detail))
+}
+
+/// What to ask for so that a package comes in every `every`-th cycle [Hz].
+pub(super) fn output_frequency(controller_rate: f64, every: f64) -> f64 {
+    // A controller sends in every floor(rate / frequency)-th cycle: a hair less than the frequency
+    // keeps rounding from making that one cycle too few.
+    (controller_rate / every * (1.0 - 1e-9)).max(1.0)
+}
+
+/// Why a run cannot start now: the arm may not move, or a program has it.
+pub(super) fn hindrance(status: &Status) -> Option<ArmError> {
+    fault::of_arm(status).or_else(|| {
+        let detail = "a program runs on the controller: stop it at the pendant first";
+        (!status.program_is_still()).then(|| ArmError::new(fault::OTHER_PROGRAM, detail))
+    })
 }
 
 /// The servo program for references at `rate_hz`.

@@ -27,6 +27,10 @@ pub struct Behaviour {
     pub input_types: Option<String>,
     /// Packages sent at once where one is due.
     pub packages_at_once: usize,
+    /// Sends packages on its own, one a millisecond, until the driver goes away.
+    pub streams: bool,
+    /// How the outputs are from the beginning.
+    pub from_start: Option<Change>,
     /// Changes the outputs from the given reference on.
     pub after: Option<(i32, Change)>,
 }
@@ -39,6 +43,8 @@ impl Default for Behaviour {
             byte_by_byte: false,
             input_types: None,
             packages_at_once: 1,
+            streams: false,
+            from_start: None,
             after: None,
         }
     }
@@ -58,6 +64,21 @@ pub struct Outputs {
     pub speed_slider: f64,
     pub phase: i32,
     pub session: i32,
+    pub actual_q: Option<[f64; 6]>,
+    /// What the link comes to.
+    pub link: LinkEnd,
+}
+
+/// What the link comes to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum LinkEnd {
+    None,
+    /// The controller closes the connection.
+    Closed,
+    /// It reads on, but says nothing any more.
+    Silent,
+    /// It sends what is no package.
+    Garbage,
 }
 
 pub struct Stub {
@@ -125,7 +146,12 @@ fn serve(behaviour: &Behaviour, listener: &TcpListener, sessions: &Receiver<i32>
         speed_slider: 1.0,
         phase: 0,
         session: 0,
+        actual_q: None,
+        link: LinkEnd::None,
     };
+    if let Some(change) = behaviour.from_start {
+        change(&mut outputs);
+    }
     while let Some((kind, payload)) = read_package(&mut stream) {
         let mut replies = Vec::new();
         match kind {
@@ -157,7 +183,12 @@ fn serve(behaviour: &Behaviour, listener: &TcpListener, sessions: &Receiver<i32>
                 let inputs = read_inputs(&payload);
                 react(&mut outputs, behaviour, &inputs, sessions);
                 written.push(inputs);
-                push_outputs(&mut replies, behaviour, &mut outputs);
+                match outputs.link {
+                    LinkEnd::None => push_outputs(&mut replies, behaviour, &mut outputs),
+                    LinkEnd::Closed => return written,
+                    LinkEnd::Silent => {}
+                    LinkEnd::Garbage => replies.push((b'?', vec![0; 5])),
+                }
             }
             other => panic!("the driver sent a package of type {other}"),
         }
@@ -166,8 +197,24 @@ fn serve(behaviour: &Behaviour, listener: &TcpListener, sessions: &Receiver<i32>
                 return written;
             }
         }
+        if kind == b'S' && behaviour.streams {
+            stream_outputs(&mut stream, behaviour, &mut outputs);
+        }
     }
     written
+}
+
+fn stream_outputs(stream: &mut TcpStream, behaviour: &Behaviour, outputs: &mut Outputs) {
+    loop {
+        thread::sleep(std::time::Duration::from_millis(1));
+        let mut packages = Vec::new();
+        push_outputs(&mut packages, behaviour, outputs);
+        for (kind, payload) in packages {
+            if send(stream, behaviour, kind, &payload).is_err() {
+                return;
+            }
+        }
+    }
 }
 
 /// The servo program's share in the outputs.
@@ -200,8 +247,9 @@ fn push_outputs(replies: &mut Vec<(u8, Vec<u8>)>, behaviour: &Behaviour, outputs
         outputs.timestamp += 0.008;
         let mut bytes = vec![1];
         bytes.extend(outputs.timestamp.to_be_bytes());
-        for _ in 0..2 {
-            bytes.extend(behaviour.q.iter().flat_map(|angle| angle.to_be_bytes()));
+        let actual = outputs.actual_q.unwrap_or(behaviour.q);
+        for q in [behaviour.q, actual] {
+            bytes.extend(q.iter().flat_map(|angle| angle.to_be_bytes()));
         }
         bytes.extend([0; 48]);
         bytes.extend(outputs.runtime_state.to_be_bytes());
