@@ -56,10 +56,11 @@ pub struct RunArguments {
     #[arg(value_hint = ValueHint::FilePath)]
     pub scenario: PathBuf,
     /// The arm: `emulator` (a UR controller emulated in this process, over TCP on loopback),
-    /// `ideal` (q = q_ref, no network, as fast as possible), or the host name of a real controller
+    /// `ideal` (q = q_ref, no network, as fast as possible), `ur` (the `host` of the scenario's
+    /// `[ur]`), or the host name of a real controller
     #[arg(
         long,
-        value_name = "emulator|ideal|HOST",
+        value_name = "emulator|ideal|ur|HOST",
         default_value = "emulator",
         value_parser = NonEmptyStringValueParser::new()
     )]
@@ -77,6 +78,10 @@ pub struct RunArguments {
     /// No progress line and no summary; errors are printed all the same
     #[arg(long, short)]
     pub quiet: bool,
+    /// With `--robot HOST`: connect, check everything, compute and check every reference in the
+    /// controller's own time, but send none: nothing moves
+    #[arg(long)]
+    pub dry_run: bool,
     /// With `--robot HOST`: added to the controller's ports, as in `conik emulate --port-offset`
     #[arg(long, value_name = "N", default_value_t = 0)]
     pub port_offset: u16,

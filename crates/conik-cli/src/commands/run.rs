@@ -161,6 +161,11 @@ fn arm(
 ) -> Result<Driven, Failure> {
     let rate_hz = scenario.control.rate_hz;
     let (arm, emulator): (Box<dyn Arm + Send>, _) = match arguments.robot.as_str() {
+        "ideal" if arguments.dry_run => {
+            return Err(Failure::input(
+                "--dry-run: there is nothing to send to an ideal arm; it is for --robot HOST",
+            ));
+        }
         "ideal" => (Box::new(IdealArm::at(experiment.q0)), None),
         "emulator" => {
             let series = if rate_hz <= Series::Cb3.rate_hz() {
@@ -183,12 +188,26 @@ fn arm(
                 )),
                 error => Failure::input(error),
             })?;
-            (
-                Box::new(UrArm::new(emulator.driver_config())),
-                Some(emulator),
-            )
+            let mut config = emulator.driver_config();
+            if let Some(settings) = &scenario.ur {
+                config.apply(settings);
+                // It is whatever the rate needs.
+                config.series = None;
+            }
+            config.dry_run = arguments.dry_run;
+            (Box::new(UrArm::new(config)), Some(emulator))
         }
         host => {
+            let host = match (host, scenario.ur.as_ref().and_then(|ur| ur.host.as_deref())) {
+                ("ur", Some(host)) => host,
+                ("ur", None) => {
+                    return Err(Failure::input(
+                        "--robot ur: the scenario's [ur] names no `host`; add it, or give the \
+                         host to --robot",
+                    ));
+                }
+                (host, _) => host,
+            };
             if arguments.fast {
                 return Err(Failure::input(format!(
                     "--fast: the controller at {host} keeps its own time; --fast is for \
@@ -196,6 +215,10 @@ fn arm(
                 )));
             }
             let mut config = UrConfig::new(host);
+            if let Some(settings) = &scenario.ur {
+                config.apply(settings);
+            }
+            config.dry_run = arguments.dry_run;
             config
                 .offset_ports(arguments.port_offset)
                 .map_err(Failure::input)?;

@@ -1,6 +1,8 @@
 //! Where the controller is and how it is to be driven.
 
+use crate::program::Pose;
 use crate::registers::{JOINTS, RegisterBase};
+use conik_sim::scenario::{UrSeries, UrSettings};
 use std::f64::consts::{PI, TAU};
 use std::time::Duration;
 
@@ -46,6 +48,15 @@ pub struct UrConfig {
     pub first_reference_within_s: f64,
     /// Where the transport's registers begin.
     pub registers: RegisterBase,
+    /// Mass on the flange [kg]; `None`: the installation's.
+    pub payload_kg: Option<f64>,
+    /// The tool in the flange's frame; `None`: the installation's.
+    pub tcp: Option<Pose>,
+    /// The series that the controller must be of; `None`: any.
+    pub series: Option<UrSeries>,
+    /// Check everything, send nothing: no register is claimed, no program sent, no reference
+    /// written.
+    pub dry_run: bool,
     /// Speed that no reference may ask a joint to exceed [rad/s].
     pub speed_limit: [f64; JOINTS],
     /// Acceleration that no two steps from reference to reference may ask of a joint [rad/s²].
@@ -82,6 +93,10 @@ impl UrConfig {
             stop_deceleration: 4.0,
             first_reference_within_s: 60.0,
             registers: RegisterBase::default(),
+            payload_kg: None,
+            tcp: None,
+            series: None,
+            dry_run: false,
             speed_limit: [PI; JOINTS],
             acceleration_limit: None,
             position_limit: [TAU; JOINTS],
@@ -91,6 +106,25 @@ impl UrConfig {
             program_timeout: Duration::from_secs(5),
             stop_timeout: Duration::from_secs(3),
         }
+    }
+
+    /// Takes over what a scenario says of the arm, all but the host.
+    ///
+    /// Limits that are not for six joints are left out: no such robot can be driven anyway.
+    pub fn apply(&mut self, settings: &UrSettings) {
+        let six = |limits: &Option<Vec<f64>>| limits.as_deref()?.try_into().ok();
+        self.series = settings.series;
+        self.lookahead_s = settings.servo_lookahead_s.unwrap_or(self.lookahead_s);
+        self.gain = settings.servo_gain.unwrap_or(self.gain);
+        self.payload_kg = settings.payload_kg.or(self.payload_kg);
+        if let Some([x, y, z]) = settings.tcp_offset_m {
+            let [rx, ry, rz] = settings.tcp_rotation_rad.unwrap_or_default();
+            self.tcp = Some(Pose([x, y, z, rx, ry, rz]));
+        }
+        self.position_limit = six(&settings.most_position_rad).unwrap_or(self.position_limit);
+        self.speed_limit = six(&settings.most_speed_rad_per_s).unwrap_or(self.speed_limit);
+        self.acceleration_limit =
+            six(&settings.most_acceleration_rad_per_s2).or(self.acceleration_limit);
     }
 
     /// Adds `offset` to every port, as an emulator beside others has it.

@@ -17,6 +17,8 @@ pub const PROTOCOL: &str = "protocol";
 pub const RATE_NOT_POSSIBLE: &str = "rate-not-possible";
 /// A setting that cannot be used.
 pub const BAD_SETTING: &str = "bad-setting";
+/// Not the arm that is asked for.
+pub const WRONG_ARM: &str = "wrong-arm";
 /// Another program runs on the controller.
 pub const OTHER_PROGRAM: &str = "other-program-running";
 /// The servo program was sent but does not run.

@@ -130,7 +130,12 @@ impl Arm for UrArm {
             (None, Some(link)) => link.series_name(),
             (None, None) => "UR arm".to_owned(),
         };
-        format!("{name} at {host}:{rtde_port}")
+        let dry = if self.config.dry_run {
+            " (dry run: nothing is sent)"
+        } else {
+            ""
+        };
+        format!("{name} at {host}:{rtde_port}{dry}")
     }
 
     fn is_real_time(&self) -> bool {
