@@ -261,11 +261,11 @@ pub(crate) mod tests {
         assert_eq!(ServoProgram::parse(&text), Ok(PROGRAM));
         let with_tool = ServoProgram {
             payload_kg: Some(1.5),
-            tcp: Some(Pose([0.0, 0.0, 0.12, 0.0, 3.14, 0.0])),
+            tcp: Some(Pose([0.0, 0.0, 0.12, 0.0, 1.25, 0.0])),
             ..PROGRAM
         };
         let text_with_tool = with_tool.text().unwrap();
-        assert!(text_with_tool.contains("tcp = p[0.0, 0.0, 0.12, 0.0, 3.14, 0.0]\n"));
+        assert!(text_with_tool.contains("tcp = p[0.0, 0.0, 0.12, 0.0, 1.25, 0.0]\n"));
         assert_eq!(ServoProgram::parse(&text_with_tool), Ok(with_tool));
         assert_eq!(
             ServoProgram::parse(&text.replace('\n', "\r\n")),

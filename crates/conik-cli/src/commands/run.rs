@@ -21,6 +21,7 @@ use conik_sim::run::{self, Ended};
 use conik_sim::scenario::Scenario;
 use conik_sim::summarise::Summariser;
 use conik_sim::summary::{Outcome, Settings, Summary};
+use conik_ur::driver::recover::power_on;
 use conik_ur::driver::{UrArm, UrConfig};
 use conik_ur::emulator::{Emulator, EmulatorConfig, EmulatorError, Pace, Series};
 use conik_ur::realtime::Realtime;
@@ -198,15 +199,16 @@ fn arm(
             (Box::new(UrArm::new(config)), Some(emulator))
         }
         host => {
-            let host = match (host, scenario.ur.as_ref().and_then(|ur| ur.host.as_deref())) {
-                ("ur", Some(host)) => host,
-                ("ur", None) => {
-                    return Err(Failure::input(
+            let named = scenario.ur.as_ref().and_then(|ur| ur.host.as_deref());
+            let host = if host == "ur" {
+                named.ok_or_else(|| {
+                    Failure::input(
                         "--robot ur: the scenario's [ur] names no `host`; add it, or give the \
                          host to --robot",
-                    ));
-                }
-                (host, _) => host,
+                    )
+                })?
+            } else {
+                host
             };
             if arguments.fast {
                 return Err(Failure::input(format!(
@@ -222,6 +224,9 @@ fn arm(
             config
                 .offset_ports(arguments.port_offset)
                 .map_err(Failure::input)?;
+            if arguments.power_on {
+                power_on(&config, &mut super::recover::say).map_err(Failure::run)?;
+            }
             (Box::new(UrArm::new(config)), None)
         }
     };

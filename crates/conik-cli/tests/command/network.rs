@@ -174,3 +174,28 @@ fn a_dry_run_goes_through_the_whole_scenario_and_moves_nothing() {
     emulator.signal("INT");
     assert_eq!(emulator.wait().status, Some(0));
 }
+
+#[test]
+fn nothing_is_recovered_or_powered_where_no_dashboard_answers() {
+    let folder = empty_folder("no dashboard");
+    let listener = TcpListener::bind("127.0.0.1:0").unwrap();
+    let port = listener.local_addr().unwrap().port();
+    drop(listener);
+    let offset = port.checked_sub(29_999).unwrap_or(777);
+    let example = paper("example2");
+    for line in [
+        format!("recover 127.0.0.1 --port-offset {offset}"),
+        format!(
+            "run {} --robot 127.0.0.1 --power-on --port-offset {offset}",
+            example.display()
+        ),
+    ] {
+        let said = say(&folder, &line);
+        assert_eq!(said.status, Some(1), "{said:#?}");
+        let begins = format!(
+            "error: connect-failed: no connection to 127.0.0.1:{}",
+            29_999 + offset
+        );
+        assert!(said.stderr.starts_with(&begins), "{said:#?}");
+    }
+}

@@ -1,5 +1,6 @@
 //! Where the controller is and how it is to be driven.
 
+use super::recover::UNLOCK_AFTER;
 use crate::program::Pose;
 use crate::registers::{JOINTS, RegisterBase};
 use conik_sim::scenario::{UrSeries, UrSettings};
@@ -21,6 +22,9 @@ pub const SPEED_CHANGE_ALLOWED: f64 = 0.75;
 #[error("--port-offset: no port may exceed 65535")]
 pub struct BadPortOffset;
 
+/// The controller's port for the dashboard.
+pub const DASHBOARD_PORT: u16 = 29999;
+
 /// Where the controller is and how it is to be driven.
 #[derive(Clone, Debug, PartialEq)]
 pub struct UrConfig {
@@ -30,6 +34,8 @@ pub struct UrConfig {
     pub rtde_port: u16,
     /// Port for the servo program.
     pub script_port: u16,
+    /// Port for the dashboard.
+    pub dashboard_port: u16,
     /// What to call the arm in front of people; `None`: what the controller says it is.
     pub name: Option<String>,
     /// The controller's own rate [Hz], where its version does not tell (an emulator).
@@ -75,6 +81,10 @@ pub struct UrConfig {
     pub program_timeout: Duration,
     /// Time from asking for a stop until the program has ended.
     pub stop_timeout: Duration,
+    /// Time to leave a protective stop alone before it is unlocked.
+    pub unlock_after: Duration,
+    /// Time for each step of a recovery: the arm's own start takes some seconds.
+    pub recover_timeout: Duration,
 }
 
 impl UrConfig {
@@ -84,6 +94,7 @@ impl UrConfig {
             host: host.into(),
             rtde_port: RTDE_PORT,
             script_port: SCRIPT_PORT,
+            dashboard_port: DASHBOARD_PORT,
             name: None,
             controller_rate_hz: None,
             real_time: true,
@@ -105,6 +116,8 @@ impl UrConfig {
             link_timeout: Duration::from_millis(500),
             program_timeout: Duration::from_secs(5),
             stop_timeout: Duration::from_secs(3),
+            unlock_after: UNLOCK_AFTER,
+            recover_timeout: Duration::from_secs(30),
         }
     }
 
@@ -129,7 +142,11 @@ impl UrConfig {
 
     /// Adds `offset` to every port, as an emulator beside others has it.
     pub fn offset_ports(&mut self, offset: u16) -> Result<(), BadPortOffset> {
-        for port in [&mut self.rtde_port, &mut self.script_port] {
+        for port in [
+            &mut self.rtde_port,
+            &mut self.script_port,
+            &mut self.dashboard_port,
+        ] {
             *port = port.checked_add(offset).ok_or(BadPortOffset)?;
         }
         Ok(())
