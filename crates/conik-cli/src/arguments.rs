@@ -31,6 +31,8 @@ pub enum Command {
     Emulate(EmulateArguments),
     /// Measure this computer and the link to a controller, before anything moves
     Preflight(PreflightArguments),
+    /// Bring a stopped arm back to where a run may start, without moving it
+    Recover(RecoverArguments),
     /// Write a commented scenario to start from
     Init(InitArguments),
     /// Print the JSON Schema of the scenario file
@@ -56,10 +58,11 @@ pub struct RunArguments {
     #[arg(value_hint = ValueHint::FilePath)]
     pub scenario: PathBuf,
     /// The arm: `emulator` (a UR controller emulated in this process, over TCP on loopback),
-    /// `ideal` (q = q_ref, no network, as fast as possible), or the host name of a real controller
+    /// `ideal` (q = q_ref, no network, as fast as possible), `ur` (the `host` of the scenario's
+    /// `[ur]`), or the host name of a real controller
     #[arg(
         long,
-        value_name = "emulator|ideal|HOST",
+        value_name = "emulator|ideal|ur|HOST",
         default_value = "emulator",
         value_parser = NonEmptyStringValueParser::new()
     )]
@@ -77,6 +80,13 @@ pub struct RunArguments {
     /// No progress line and no summary; errors are printed all the same
     #[arg(long, short)]
     pub quiet: bool,
+    /// With `--robot HOST`: switch the arm on and release its brakes first, if need be
+    #[arg(long, conflicts_with = "dry_run")]
+    pub power_on: bool,
+    /// With `--robot HOST`: connect, check everything, compute and check every reference in the
+    /// controller's own time, but send none: nothing moves
+    #[arg(long)]
+    pub dry_run: bool,
     /// With `--robot HOST`: added to the controller's ports, as in `conik emulate --port-offset`
     #[arg(long, value_name = "N", default_value_t = 0)]
     pub port_offset: u16,
@@ -158,6 +168,25 @@ pub struct PreflightArguments {
     /// At this rate [default: the controller's own]
     #[arg(long, value_name = "HZ", allow_negative_numbers = true)]
     pub rate_hz: Option<f64>,
+    /// Added to the controller's ports, as in `conik emulate --port-offset`
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    pub port_offset: u16,
+}
+
+/// `conik recover`
+#[derive(Debug, Args)]
+#[command(
+    after_help = "A protective stop is unlocked after 5 s. Emergency stops, safeguard stops \
+    and safety faults are named and left to the person beside the arm. The next `conik run` starts \
+    where the arm stands. Exit status: 0 a run may start; 1 it may not; 2 bad usage."
+)]
+pub struct RecoverArguments {
+    /// Host name or address of the controller
+    #[arg(value_parser = NonEmptyStringValueParser::new())]
+    pub host: String,
+    /// Switch the arm on and release its brakes, if need be
+    #[arg(long)]
+    pub power_on: bool,
     /// Added to the controller's ports, as in `conik emulate --port-offset`
     #[arg(long, value_name = "N", default_value_t = 0)]
     pub port_offset: u16,

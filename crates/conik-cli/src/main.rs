@@ -23,6 +23,7 @@ fn main() -> ExitCode {
         Command::Plot(arguments) => commands::plot::plot(&arguments),
         Command::Emulate(arguments) => commands::emulate::emulate(&arguments),
         Command::Preflight(arguments) => commands::preflight::preflight(&arguments),
+        Command::Recover(arguments) => commands::recover::recover(&arguments),
         Command::Init(arguments) => commands::init::init(&arguments),
         Command::Schema => commands::schema::schema(),
         Command::Completions { shell } => commands::completions::completions(shell),

@@ -5,6 +5,8 @@
 //! that whoever emulates it never takes another program for it.
 
 use crate::registers::{BadRegisterBase, RegisterBase};
+use std::fmt;
+use std::str::FromStr;
 
 /// The program's text; `{name}` stands for a parameter.
 const TEMPLATE: &str = include_str!("servo.script");
@@ -30,7 +32,44 @@ pub struct ServoProgram {
     pub patience_s: f64,
     /// Where the registers begin.
     pub registers: RegisterBase,
+    /// Mass on the flange [kg]; `None`: the installation's.
+    pub payload_kg: Option<f64>,
+    /// The tool in the flange's frame; `None`: the installation's.
+    pub tcp: Option<Pose>,
 }
+
+/// A pose as the controller writes it: a point [m] and a rotation vector [rad].
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Pose(pub [f64; 6]);
+
+impl fmt::Display for Pose {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let numbers = self.0.map(|number| format!("{number:?}"));
+        write!(f, "p[{}]", numbers.join(", "))
+    }
+}
+
+impl FromStr for Pose {
+    type Err = NoPose;
+
+    fn from_str(text: &str) -> Result<Self, NoPose> {
+        let numbers = text
+            .strip_prefix("p[")
+            .and_then(|text| text.strip_suffix(']'));
+        let numbers: Option<Vec<f64>> = numbers
+            .ok_or(NoPose)?
+            .split(", ")
+            .map(|number| number.parse().ok())
+            .collect();
+        let numbers = numbers.and_then(|numbers| numbers.try_into().ok());
+        numbers.map(Self).ok_or(NoPose)
+    }
+}
+
+/// A text that is not a pose.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("not a pose such as p[0.0, 0.0, 0.1, 0.0, 0.0, 0.0]")]
+pub struct NoPose;
 
 /// A program that must not be run.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -65,6 +104,8 @@ impl ServoProgram {
     /// Whether every parameter is within its range.
     pub fn check(&self) -> Result<(), ProgramError> {
         let cycles = f64::from(self.extrapolated_cycles);
+        let tcp = self.tcp.unwrap_or_default().0;
+        let tcp = tcp.map(|value| ("the tool centre point [m or rad]", value, -10.0, 10.0));
         for (name, value, from, to) in [
             ("the cycle [s]", self.cycle_s, 0.001, 1.0),
             ("the lookahead [s]", self.lookahead_s, 0.03, 0.2),
@@ -78,7 +119,16 @@ impl ServoProgram {
             ),
             ("the watchdog's rate [Hz]", self.watchdog_hz, 0.1, 500.0),
             ("the patience [s]", self.patience_s, 0.1, 3600.0),
-        ] {
+            (
+                "the payload [kg]",
+                self.payload_kg.unwrap_or(0.0),
+                0.0,
+                40.0,
+            ),
+        ]
+        .into_iter()
+        .chain(tcp)
+        {
             // Written so that a NaN is out of range too.
             if !(from..=to).contains(&value) {
                 return Err(ProgramError::OutOfRange {
@@ -115,6 +165,11 @@ impl ServoProgram {
             watchdog_hz: parameter(text, "{watchdog_hz}")?,
             patience_s: parameter(text, "{patience_s}")?,
             registers: RegisterBase::new(parameter(text, "{register_base}")?)?,
+            payload_kg: Some(parameter(text, "{payload_kg}")?).filter(|mass: &f64| *mass >= 0.0),
+            tcp: match parameter(text, "{tcp_is_given}")? {
+                0_u8 => None,
+                _ => Some(parameter(text, "{tcp}")?),
+            },
         };
         let ours = program.text()?;
         match first_difference(&ours, text) {
@@ -124,7 +179,7 @@ impl ServoProgram {
     }
 
     /// What stands for each parameter in the text.
-    fn parameters(&self) -> [(&'static str, String); 10] {
+    fn parameters(&self) -> [(&'static str, String); 13] {
         [
             ("{session}", self.session.to_string()),
             ("{cycle_s}", format!("{:?}", self.cycle_s)),
@@ -142,12 +197,18 @@ impl ServoProgram {
             ("{patience_s}", format!("{:?}", self.patience_s)),
             ("{register_base}", self.registers.first().to_string()),
             ("{watched}", self.registers.counter()),
+            (
+                "{payload_kg}",
+                format!("{:?}", self.payload_kg.unwrap_or(-1.0)),
+            ),
+            ("{tcp_is_given}", u8::from(self.tcp.is_some()).to_string()),
+            ("{tcp}", self.tcp.unwrap_or_default().to_string()),
         ]
     }
 }
 
 /// The parameter that stands in `text` where the template has `placeholder`.
-fn parameter<T: std::str::FromStr>(text: &str, placeholder: &str) -> Result<T, ProgramError> {
+fn parameter<T: FromStr>(text: &str, placeholder: &str) -> Result<T, ProgramError> {
     let (at, line) = TEMPLATE
         .lines()
         .enumerate()
@@ -189,6 +250,8 @@ pub(crate) mod tests {
             Ok(base) => base,
             Err(_) => unreachable!(),
         },
+        payload_kg: None,
+        tcp: None,
     };
 
     #[test]
@@ -196,6 +259,14 @@ pub(crate) mod tests {
         let text = PROGRAM.text().unwrap();
         assert!(!text.contains('{'), "a placeholder is left:\n{text}");
         assert_eq!(ServoProgram::parse(&text), Ok(PROGRAM));
+        let with_tool = ServoProgram {
+            payload_kg: Some(1.5),
+            tcp: Some(Pose([0.0, 0.0, 0.12, 0.0, 1.25, 0.0])),
+            ..PROGRAM
+        };
+        let text_with_tool = with_tool.text().unwrap();
+        assert!(text_with_tool.contains("tcp = p[0.0, 0.0, 0.12, 0.0, 1.25, 0.0]\n"));
+        assert_eq!(ServoProgram::parse(&text_with_tool), Ok(with_tool));
         assert_eq!(
             ServoProgram::parse(&text.replace('\n', "\r\n")),
             Ok(PROGRAM)

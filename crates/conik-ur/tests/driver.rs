@@ -5,6 +5,7 @@ mod stub;
 
 use conik::JointVec;
 use conik_sim::arm::{Arm, ArmError, Reference};
+use conik_sim::scenario::{UrSeries, UrSettings};
 use conik_ur::driver::{UrArm, UrConfig};
 use std::time::Duration;
 use stub::{Behaviour, Change, LinkEnd, Stub, Written};
@@ -428,4 +429,103 @@ fn a_controller_that_is_not_there_is_a_fault_with_its_address() {
     assert_eq!(fault.name, "connect-failed");
     assert!(fault.detail.contains(&port.to_string()), "{fault}");
     arm.stop().unwrap();
+}
+
+#[test]
+fn a_dry_run_does_everything_but_write() {
+    let behaviour = Behaviour {
+        streams: true,
+        ..Behaviour::default()
+    };
+    let q0 = behaviour.q;
+    let stub = Stub::start(behaviour);
+    let mut arm = UrArm::new(UrConfig {
+        dry_run: true,
+        ..config(&stub)
+    });
+    assert!(arm.describe().contains("nothing is sent"));
+    assert_eq!(arm.start(RATE).unwrap(), q0.into());
+    let curve = curve(q0, 20);
+    run(&mut arm, &curve).unwrap();
+    let mut away = curve[19];
+    away.q[2] += 0.1;
+    let fault = run(&mut arm, &[away]).unwrap_err();
+    assert_eq!(fault.name, "reference-refused");
+    assert!(fault.detail.contains("joint 3 (elbow)"), "{fault}");
+    arm.stop().unwrap();
+    assert!(stub.written().is_empty());
+}
+
+#[test]
+fn a_dry_run_names_what_keeps_the_arm_from_moving() {
+    let cases: [(&str, Change); 3] = [
+        ("robot-not-running", |o| o.robot_mode = 3),
+        ("other-program-running", |o| o.runtime_state = 2),
+        ("speed-slider", |o| o.speed_slider = 0.0),
+    ];
+    for (name, from_start) in cases {
+        for dry_run in [true, false] {
+            let stub = Stub::start(Behaviour {
+                from_start: Some(from_start),
+                ..Behaviour::default()
+            });
+            let mut arm = UrArm::new(UrConfig {
+                dry_run,
+                ..config(&stub)
+            });
+            assert_eq!(arm.start(RATE).unwrap_err().name, name);
+            assert!(stub.written().is_empty());
+        }
+    }
+}
+
+#[test]
+fn an_arm_of_another_series_is_refused() {
+    for (version, series, passes) in [
+        ((5, 13), UrSeries::Cb3, false),
+        ((5, 13), UrSeries::ESeries, true),
+        ((3, 15), UrSeries::ESeries, false),
+        ((3, 15), UrSeries::Cb3, true),
+    ] {
+        let stub = Stub::start(Behaviour {
+            version,
+            ..Behaviour::default()
+        });
+        let mut config = config(&stub);
+        config.apply(&UrSettings {
+            series: Some(series),
+            ..UrSettings::default()
+        });
+        let started = UrArm::new(config).start(RATE);
+        match started {
+            Ok(_) => assert!(passes),
+            Err(fault) => assert_eq!((fault.name, passes), ("wrong-arm", false)),
+        }
+    }
+}
+
+#[test]
+fn the_settings_of_a_scenario_are_taken_over() {
+    let mut config = UrConfig::new("arm");
+    let before = config.clone();
+    config.apply(&UrSettings::default());
+    assert_eq!(config, before);
+    config.apply(&UrSettings {
+        host: Some("another".to_owned()),
+        servo_lookahead_s: Some(0.05),
+        servo_gain: Some(500.0),
+        payload_kg: Some(1.5),
+        tcp_offset_m: Some([0.0, 0.0, 0.12]),
+        most_position_rad: Some(vec![3.0; 6]),
+        most_speed_rad_per_s: Some(vec![1.0, 2.0, 3.0, 1.0, 2.0, 3.0]),
+        most_acceleration_rad_per_s2: Some(vec![20.0; 6]),
+        ..UrSettings::default()
+    });
+    assert_eq!(config.host, "arm", "which arm is the caller's to say");
+    assert_eq!((config.lookahead_s, config.gain), (0.05, 500.0));
+    assert_eq!(config.payload_kg, Some(1.5));
+    assert_eq!(config.tcp.unwrap().0, [0.0, 0.0, 0.12, 0.0, 0.0, 0.0]);
+    assert_eq!(config.position_limit, [3.0; 6]);
+    assert_eq!(config.speed_limit, [1.0, 2.0, 3.0, 1.0, 2.0, 3.0]);
+    assert_eq!(config.acceleration_limit, Some([20.0; 6]));
 }

@@ -201,6 +201,8 @@ fn a_driver_that_vanishes_leaves_an_arm_that_stops_by_itself() {
             watchdog_hz: 10.0,
             patience_s: 60.0,
             registers: conik_ur::registers::RegisterBase::default(),
+            payload_kg: None,
+            tcp: None,
         }
         .text()
         .unwrap();

@@ -6,6 +6,7 @@ pub mod emulate;
 pub mod init;
 pub mod plot;
 pub mod preflight;
+pub mod recover;
 pub mod run;
 pub mod schema;
 

@@ -21,6 +21,7 @@ use conik_sim::run::{self, Ended};
 use conik_sim::scenario::Scenario;
 use conik_sim::summarise::Summariser;
 use conik_sim::summary::{Outcome, Settings, Summary};
+use conik_ur::driver::recover::power_on;
 use conik_ur::driver::{UrArm, UrConfig};
 use conik_ur::emulator::{Emulator, EmulatorConfig, EmulatorError, Pace, Series};
 use conik_ur::realtime::Realtime;
@@ -161,6 +162,11 @@ fn arm(
 ) -> Result<Driven, Failure> {
     let rate_hz = scenario.control.rate_hz;
     let (arm, emulator): (Box<dyn Arm + Send>, _) = match arguments.robot.as_str() {
+        "ideal" if arguments.dry_run => {
+            return Err(Failure::input(
+                "--dry-run: there is nothing to send to an ideal arm; it is for --robot HOST",
+            ));
+        }
         "ideal" => (Box::new(IdealArm::at(experiment.q0)), None),
         "emulator" => {
             let series = if rate_hz <= Series::Cb3.rate_hz() {
@@ -183,12 +189,27 @@ fn arm(
                 )),
                 error => Failure::input(error),
             })?;
-            (
-                Box::new(UrArm::new(emulator.driver_config())),
-                Some(emulator),
-            )
+            let mut config = emulator.driver_config();
+            if let Some(settings) = &scenario.ur {
+                config.apply(settings);
+                // It is whatever the rate needs.
+                config.series = None;
+            }
+            config.dry_run = arguments.dry_run;
+            (Box::new(UrArm::new(config)), Some(emulator))
         }
         host => {
+            let named = scenario.ur.as_ref().and_then(|ur| ur.host.as_deref());
+            let host = if host == "ur" {
+                named.ok_or_else(|| {
+                    Failure::input(
+                        "--robot ur: the scenario's [ur] names no `host`; add it, or give the \
+                         host to --robot",
+                    )
+                })?
+            } else {
+                host
+            };
             if arguments.fast {
                 return Err(Failure::input(format!(
                     "--fast: the controller at {host} keeps its own time; --fast is for \
@@ -196,9 +217,16 @@ fn arm(
                 )));
             }
             let mut config = UrConfig::new(host);
+            if let Some(settings) = &scenario.ur {
+                config.apply(settings);
+            }
+            config.dry_run = arguments.dry_run;
             config
                 .offset_ports(arguments.port_offset)
                 .map_err(Failure::input)?;
+            if arguments.power_on {
+                power_on(&config, &mut super::recover::say).map_err(Failure::run)?;
+            }
             (Box::new(UrArm::new(config)), None)
         }
     };

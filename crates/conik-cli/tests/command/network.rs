@@ -134,3 +134,68 @@ fn preflight_measures_an_emulator_in_another_process_and_moves_nothing() {
     emulator.signal("INT");
     assert_eq!(emulator.wait().status, Some(0));
 }
+
+#[test]
+fn a_dry_run_goes_through_the_whole_scenario_and_moves_nothing() {
+    let folder = empty_folder("dry run");
+    let (emulator, offset) = emulator(&folder);
+    let example = std::fs::read_to_string(paper("example2")).unwrap();
+    let text = example.replacen(
+        "\n[[task]]",
+        "\n[ur]\nhost = \"127.0.0.1\"\nseries = \"cb3\"\n\n[[task]]",
+        1,
+    );
+    std::fs::write(folder.join("arm.toml"), &text).unwrap();
+    let line = format!("run arm.toml --robot ur --port-offset {offset} --duration-s 1 --dry-run");
+    // Twice: after a run that moved the arm, the second would find it away from the start.
+    for out in ["first", "second"] {
+        let said = say(&folder, &format!("{line} --out {out}"));
+        assert_eq!(said.status, Some(0), "{said:#?}");
+        assert!(
+            said.stdout.contains("dry run: nothing is sent"),
+            "{said:#?}"
+        );
+        assert!(said.stdout.contains("driving with "), "{said:#?}");
+        assert_eq!(Rows::of(&folder.join(out)).rows.len(), 126);
+    }
+    // Limits of [ur] are the last word.
+    let slow = text.replace("[ur]", "[ur]\nmost_speed_rad_per_s = 0.01");
+    std::fs::write(folder.join("slow.toml"), slow).unwrap();
+    let said = say(&folder, &line.replace("arm.toml", "slow.toml"));
+    assert_eq!(said.status, Some(1));
+    assert!(
+        said.stderr.contains("error: reference-refused: joint "),
+        "{said:#?}"
+    );
+    assert!(
+        said.stderr.contains("its limit is 0.010000 rad/s"),
+        "{said:#?}"
+    );
+    emulator.signal("INT");
+    assert_eq!(emulator.wait().status, Some(0));
+}
+
+#[test]
+fn nothing_is_recovered_or_powered_where_no_dashboard_answers() {
+    let folder = empty_folder("no dashboard");
+    let listener = TcpListener::bind("127.0.0.1:0").unwrap();
+    let port = listener.local_addr().unwrap().port();
+    drop(listener);
+    let offset = port.checked_sub(29_999).unwrap_or(777);
+    let example = paper("example2");
+    for line in [
+        format!("recover 127.0.0.1 --port-offset {offset}"),
+        format!(
+            "run {} --robot 127.0.0.1 --power-on --port-offset {offset}",
+            example.display()
+        ),
+    ] {
+        let said = say(&folder, &line);
+        assert_eq!(said.status, Some(1), "{said:#?}");
+        let begins = format!(
+            "error: connect-failed: no connection to 127.0.0.1:{}",
+            29_999 + offset
+        );
+        assert!(said.stderr.starts_with(&begins), "{said:#?}");
+    }
+}

@@ -304,6 +304,7 @@ impl Invention {
                         recursion: Recursion::Chiaverini,
                         exclusive: Vec::new(),
                     },
+                    ur: None,
                     tasks,
                 },
                 joint_names: (1..=self.joints).map(|n| format!("joint_{n}")).collect(),

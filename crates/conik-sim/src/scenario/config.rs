@@ -4,6 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::damping::Damping;
 use super::motion::Motion;
+use super::ur::UrSettings;
 
 /// One run: a robot, a start, the settings of the controller and the tasks in decreasing priority.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -14,6 +15,9 @@ pub struct Scenario {
     pub robot: RobotConfig,
     /// How the controller works.
     pub control: Control,
+    /// How a Universal Robots arm is driven, if the file says so.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub ur: Option<UrSettings>,
     /// The tasks, the most important first.
     #[serde(rename = "task")]
     pub tasks: Vec<TaskConfig>,

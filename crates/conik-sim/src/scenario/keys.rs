@@ -5,6 +5,7 @@ use super::config::{Axis, Border, ModeRule, Recursion};
 use super::damping::DampingRule;
 use super::key::{Holds, Key, Range};
 pub(super) use super::robot_keys::*;
+pub(super) use super::ur_keys::*;
 
 /// Slower than 1 Hz nothing is controlled; no arm takes references faster than 10 kHz.
 const RATE: Range = Range::between(1.0, 10_000.0);
@@ -16,7 +17,7 @@ pub(super) const MOST_TICKS: f64 = 50_000_000.0;
 const GAIN: Range = Range::positive(20_000.0);
 
 /// The file itself.
-pub(super) const FILE: &[&Key] = &[&TITLE, &ROBOT, &CONTROL, &TASK];
+pub(super) const FILE: &[&Key] = &[&TITLE, &ROBOT, &CONTROL, &UR, &TASK];
 
 pub(super) const TITLE: Key = Key::new(
     "title",
@@ -38,6 +39,13 @@ pub(super) const CONTROL: Key = Key::new(
     "How the controller works; may be left out",
     Holds::Table,
     "[control]",
+);
+pub(super) const UR: Key = Key::new(
+    "ur",
+    "",
+    "How a Universal Robots arm is driven; may be left out",
+    Holds::Table,
+    "[ur]",
 );
 pub(super) const TASK: Key = Key::new(
     "task",

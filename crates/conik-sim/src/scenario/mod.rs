@@ -35,6 +35,8 @@ mod syntax;
 mod table;
 mod task;
 mod task_types;
+mod ur;
+mod ur_keys;
 mod value;
 mod write;
 
@@ -49,6 +51,7 @@ pub use mistake::{Mistake, ScenarioErrors};
 pub use motion::Motion;
 pub use robots::{RobotFacts, known_robots};
 pub use schema::schema;
+pub use ur::{UrSeries, UrSettings};
 
 /// A commented scenario to start from: every key with its unit and default, and a small working
 /// example.

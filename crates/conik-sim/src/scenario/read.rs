@@ -10,6 +10,7 @@ use super::robots::RobotFacts;
 use super::syntax;
 use super::table::{Entry, Table};
 use super::task::{self, ReadTask};
+use super::ur;
 
 /// What a task must know of the tables above it; `None` where they are wrong.
 #[derive(Clone, Copy, Debug)]
@@ -74,6 +75,12 @@ fn read_file(file: &Table, found: &mut Mistakes) -> Option<Scenario> {
         Entry::Given(table) => control::read(&table, found),
     };
 
+    let ur = match file.table(&keys::UR, found) {
+        Entry::Absent(_) => Some(None),
+        Entry::Wrong => None,
+        Entry::Given(table) => ur::read(&table, facts, found).map(Some),
+    };
+
     let surroundings = Surroundings {
         robot: facts,
         rate_hz: control.rate_hz,
@@ -101,6 +108,7 @@ fn read_file(file: &Table, found: &mut Mistakes) -> Option<Scenario> {
         title: title?,
         robot: robot?,
         control: control.whole?,
+        ur: ur?,
         tasks: tasks?
             .into_iter()
             .map(|task| task.config)

@@ -108,6 +108,7 @@ fn holds(key: &Key) -> Value {
             },
         }),
         Holds::Table if key.name == keys::ROBOT.name => robot(),
+        Holds::Table if key.name == keys::UR.name => ur(),
         Holds::Table => table(keys::CONTROL_KEYS, &[]),
         Holds::Tables => json!({ "type": "array", "items": task(), "minItems": 1 }),
     }
@@ -171,6 +172,13 @@ fn robot() -> Value {
         .map(|(deg, rad)| json!({ "not": { "required": [deg.name, rad.name] } }));
     let rules: Vec<_> = per_robot.chain(in_one_unit).collect();
     set(&mut schema, "allOf", json!(rules));
+    schema
+}
+
+fn ur() -> Value {
+    let mut schema = table(keys::UR_KEYS, &[]);
+    let rotation = json!({ keys::TCP_ROTATION_RAD.name: [keys::TCP_OFFSET_M.name] });
+    set(&mut schema, "dependencies", rotation);
     schema
 }
 

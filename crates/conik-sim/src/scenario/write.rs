@@ -21,6 +21,12 @@ impl Scenario {
         }
         write_robot(&self.robot, &mut file);
         write_control(&self.control, &mut file);
+        if let Some(ur) = &self.ur {
+            file.header(&keys::UR);
+            for (key, value) in ur.written() {
+                file.line(key.name, &value);
+            }
+        }
         for task in &self.tasks {
             write_task(task, &mut file);
         }

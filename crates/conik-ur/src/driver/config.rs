@@ -1,6 +1,9 @@
 //! Where the controller is and how it is to be driven.
 
+use super::recover::UNLOCK_AFTER;
+use crate::program::Pose;
 use crate::registers::{JOINTS, RegisterBase};
+use conik_sim::scenario::{UrSeries, UrSettings};
 use std::f64::consts::{PI, TAU};
 use std::time::Duration;
 
@@ -19,6 +22,9 @@ pub const SPEED_CHANGE_ALLOWED: f64 = 0.75;
 #[error("--port-offset: no port may exceed 65535")]
 pub struct BadPortOffset;
 
+/// The controller's port for the dashboard.
+pub const DASHBOARD_PORT: u16 = 29999;
+
 /// Where the controller is and how it is to be driven.
 #[derive(Clone, Debug, PartialEq)]
 pub struct UrConfig {
@@ -28,6 +34,8 @@ pub struct UrConfig {
     pub rtde_port: u16,
     /// Port for the servo program.
     pub script_port: u16,
+    /// Port for the dashboard.
+    pub dashboard_port: u16,
     /// What to call the arm in front of people; `None`: what the controller says it is.
     pub name: Option<String>,
     /// The controller's own rate [Hz], where its version does not tell (an emulator).
@@ -46,6 +54,15 @@ pub struct UrConfig {
     pub first_reference_within_s: f64,
     /// Where the transport's registers begin.
     pub registers: RegisterBase,
+    /// Mass on the flange [kg]; `None`: the installation's.
+    pub payload_kg: Option<f64>,
+    /// The tool in the flange's frame; `None`: the installation's.
+    pub tcp: Option<Pose>,
+    /// The series that the controller must be of; `None`: any.
+    pub series: Option<UrSeries>,
+    /// Check everything, send nothing: no register is claimed, no program sent, no reference
+    /// written.
+    pub dry_run: bool,
     /// Speed that no reference may ask a joint to exceed [rad/s].
     pub speed_limit: [f64; JOINTS],
     /// Acceleration that no two steps from reference to reference may ask of a joint [rad/s²].
@@ -64,6 +81,10 @@ pub struct UrConfig {
     pub program_timeout: Duration,
     /// Time from asking for a stop until the program has ended.
     pub stop_timeout: Duration,
+    /// Time to leave a protective stop alone before it is unlocked.
+    pub unlock_after: Duration,
+    /// Time for each step of a recovery: the arm's own start takes some seconds.
+    pub recover_timeout: Duration,
 }
 
 impl UrConfig {
@@ -73,6 +94,7 @@ impl UrConfig {
             host: host.into(),
             rtde_port: RTDE_PORT,
             script_port: SCRIPT_PORT,
+            dashboard_port: DASHBOARD_PORT,
             name: None,
             controller_rate_hz: None,
             real_time: true,
@@ -82,6 +104,10 @@ impl UrConfig {
             stop_deceleration: 4.0,
             first_reference_within_s: 60.0,
             registers: RegisterBase::default(),
+            payload_kg: None,
+            tcp: None,
+            series: None,
+            dry_run: false,
             speed_limit: [PI; JOINTS],
             acceleration_limit: None,
             position_limit: [TAU; JOINTS],
@@ -90,12 +116,37 @@ impl UrConfig {
             link_timeout: Duration::from_millis(500),
             program_timeout: Duration::from_secs(5),
             stop_timeout: Duration::from_secs(3),
+            unlock_after: UNLOCK_AFTER,
+            recover_timeout: Duration::from_secs(30),
         }
+    }
+
+    /// Takes over what a scenario says of the arm, all but the host.
+    ///
+    /// Limits that are not for six joints are left out: no such robot can be driven anyway.
+    pub fn apply(&mut self, settings: &UrSettings) {
+        let six = |limits: &Option<Vec<f64>>| limits.as_deref()?.try_into().ok();
+        self.series = settings.series;
+        self.lookahead_s = settings.servo_lookahead_s.unwrap_or(self.lookahead_s);
+        self.gain = settings.servo_gain.unwrap_or(self.gain);
+        self.payload_kg = settings.payload_kg.or(self.payload_kg);
+        if let Some([x, y, z]) = settings.tcp_offset_m {
+            let [rx, ry, rz] = settings.tcp_rotation_rad.unwrap_or_default();
+            self.tcp = Some(Pose([x, y, z, rx, ry, rz]));
+        }
+        self.position_limit = six(&settings.most_position_rad).unwrap_or(self.position_limit);
+        self.speed_limit = six(&settings.most_speed_rad_per_s).unwrap_or(self.speed_limit);
+        self.acceleration_limit =
+            six(&settings.most_acceleration_rad_per_s2).or(self.acceleration_limit);
     }
 
     /// Adds `offset` to every port, as an emulator beside others has it.
     pub fn offset_ports(&mut self, offset: u16) -> Result<(), BadPortOffset> {
-        for port in [&mut self.rtde_port, &mut self.script_port] {
+        for port in [
+            &mut self.rtde_port,
+            &mut self.script_port,
+            &mut self.dashboard_port,
+        ] {
             *port = port.checked_add(offset).ok_or(BadPortOffset)?;
         }
         Ok(())

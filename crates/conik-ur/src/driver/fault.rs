@@ -17,6 +17,14 @@ pub const PROTOCOL: &str = "protocol";
 pub const RATE_NOT_POSSIBLE: &str = "rate-not-possible";
 /// A setting that cannot be used.
 pub const BAD_SETTING: &str = "bad-setting";
+/// The dashboard says no.
+pub const DASHBOARD_REFUSED: &str = "dashboard-refused";
+/// An e-Series in local control.
+pub const NOT_REMOTE: &str = "not-in-remote-control";
+/// A step of a recovery did not come to its end.
+pub const NOT_RECOVERED: &str = "not-recovered";
+/// Not the arm that is asked for.
+pub const WRONG_ARM: &str = "wrong-arm";
 /// Another program runs on the controller.
 pub const OTHER_PROGRAM: &str = "other-program-running";
 /// The servo program was sent but does not run.

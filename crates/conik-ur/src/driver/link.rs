@@ -26,6 +26,8 @@ pub(super) struct Link {
     /// When `status` came.
     status_came: Instant,
     pace: Pace,
+    /// Nothing is ever written.
+    dry_run: bool,
     stop_timeout: Duration,
     /// What was sent last; a stop repeats it.
     sent: Sent,
@@ -58,6 +60,7 @@ impl Link {
         let stream = connect(config, config.rtde_port)?;
         let mut session = Session::greet(stream).map_err(|error| fault::of_session(&error))?;
         let version = session.version();
+        plan::check_series(config, version)?;
         plan::check_registers(config, version)?;
         let every = plan::cycles_per_reference(config, version, rate_hz)?;
         let program = plan::program(config, rate_hz)?;
@@ -87,6 +90,7 @@ impl Link {
             status,
             status_came: Instant::now(),
             pace,
+            dry_run: config.dry_run,
             stop_timeout: config.stop_timeout,
             sent: Sent {
                 counter: 0,
@@ -95,6 +99,9 @@ impl Link {
             },
             turn: Turn::FirstCycle,
         };
+        if config.dry_run {
+            return Ok(link);
+        }
         link.run_program(config, &text)
             .inspect_err(|_| link.give_up())?;
         Ok(link)
@@ -160,7 +167,12 @@ impl Link {
     pub(super) fn next_cycle(&mut self) -> Result<Feedback, ArmError> {
         let before = self.stamp();
         let passed_over = self.read()?;
-        if let Some(fault) = fault::of_run(&self.status, self.program.session) {
+        let fault = if self.dry_run {
+            plan::hindrance(&self.status)
+        } else {
+            fault::of_run(&self.status, self.program.session)
+        };
+        if let Some(fault) = fault {
             return Err(fault);
         }
         let missed_cycles = if self.turn == Turn::FirstCycle {
@@ -199,6 +211,9 @@ impl Link {
             qd: checked.qd,
         };
         self.turn = Turn::Cycle;
+        if self.dry_run {
+            return Ok(());
+        }
         self.write(Command::Servo)
     }
 
@@ -207,6 +222,9 @@ impl Link {
     /// Where the program is over already, nothing is sent. One that is paused is told all the same:
     /// it then ends as soon as someone resumes it, instead of driving to where it once was sent.
     pub(super) fn stop(mut self) -> Result<(), ArmError> {
+        if self.dry_run {
+            return Ok(());
+        }
         let deadline = Instant::now() + self.stop_timeout;
         let end = loop {
             let ours = self.status.session == self.program.session;
@@ -273,7 +291,9 @@ fn subscribe(
     frequency_hz: f64,
 ) -> Result<Status, SessionError> {
     session.subscribe(frequency_hz, &Status::fields(config.registers))?;
-    session.claim(&config.registers.inputs())?;
+    if !config.dry_run {
+        session.claim(&config.registers.inputs())?;
+    }
     session.start()?;
     let latest = session.latest()?;
     Status::from_values(&latest.values).ok_or(SessionError::OutOfOrder("the agreed output fields"))

@@ -4,6 +4,7 @@
 //! |---|---|
 //! | `config` | where the controller is and how it is to be driven |
 //! | `connect` | TCP connections with time-outs |
+//! | `dashboard`, `recover` | from a stop back to where a run may start |
 //! | `link` | one connection, from the handshake to the stop |
 //! | `pace` | what is late, and what is no clock |
 //! | `plan` | what is settled before: rate, registers, program |
@@ -13,12 +14,14 @@
 
 pub mod config;
 mod connect;
+mod dashboard;
 pub mod fault;
 mod guard;
 mod link;
 mod pace;
 mod plan;
 pub mod preflight;
+pub mod recover;
 
 pub use config::UrConfig;
 
@@ -130,7 +133,12 @@ impl Arm for UrArm {
             (None, Some(link)) => link.series_name(),
             (None, None) => "UR arm".to_owned(),
         };
-        format!("{name} at {host}:{rtde_port}")
+        let dry = if self.config.dry_run {
+            " (dry run: nothing is sent)"
+        } else {
+            ""
+        };
+        format!("{name} at {host}:{rtde_port}{dry}")
     }
 
     fn is_real_time(&self) -> bool {

@@ -6,6 +6,7 @@ use crate::program::ServoProgram;
 use crate::status::Status;
 use crate::wire::ControllerVersion;
 use conik_sim::arm::ArmError;
+use conik_sim::scenario::{Choice, UrSeries};
 use std::time::{SystemTime, UNIX_EPOCH};
 
 /// The last version number of the CB3 series.
@@ -20,6 +21,28 @@ pub(super) fn series(version: ControllerVersion) -> &'static str {
         "CB3"
     } else {
         "e-Series"
+    }
+}
+
+/// Whether the controller is of the series that is asked for.
+pub(super) fn check_series(config: &UrConfig, version: ControllerVersion) -> Result<(), ArmError> {
+    let found = if version.major <= CB3_MAJOR {
+        UrSeries::Cb3
+    } else {
+        UrSeries::ESeries
+    };
+    match config.series {
+        Some(wanted) if wanted != found => {
+            let detail = format!(
+                "the controller at {} is {} (software {version}), the scenario's [ur] asks for \
+                 {:?}: is it the right arm?",
+                config.host,
+                series(version),
+                wanted.name()
+            );
+            Err(ArmError::new(fault::WRONG_ARM, detail))
+        }
+        _ => Ok(()),
     }
 }
 
@@ -117,6 +140,8 @@ pub(super) fn program(config: &UrConfig, rate_hz: f64) -> Result<ServoProgram, A
         watchdog_hz: 1.0 / (2.0 * (cycles + 1.0) * cycle_s),
         patience_s: config.first_reference_within_s,
         registers: config.registers,
+        payload_kg: config.payload_kg,
+        tcp: config.tcp,
     })
 }
 

@@ -42,6 +42,7 @@ pub fn preflight(
     let stream = connect(config, config.rtde_port)?;
     let mut session = Session::greet(stream).map_err(of_session)?;
     let version = session.version();
+    plan::check_series(config, version)?;
     plan::check_registers(config, version)?;
     let controller_rate = plan::controller_rate(config, version);
     let rate_hz = rate_hz.unwrap_or(controller_rate);
