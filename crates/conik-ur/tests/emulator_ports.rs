@@ -192,8 +192,8 @@ fn faults_of_the_network_reach_the_client() {
     };
     let mut rtde = Rtde::started(&emulator);
 
-    strike("clock jump 100");
     let mut before = rtde.cycle();
+    strike("clock jump 100");
     let leap = (0..2000).any(|_| {
         let now = rtde.cycle();
         let leapt = now - before > 40_000;
