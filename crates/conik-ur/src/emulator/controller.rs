@@ -210,7 +210,7 @@ impl Controller {
             self.end_program("program stopped by a new one");
         }
         let running = RunningProgram::begin(program, 1.0 / self.rate_hz, &mut self.registers);
-        self.running = Some(Running::Servo(running));
+        self.running = Some(Running::Servo(Box::new(running)));
         self.paused = false;
         self.note(&format!(
             "servo program started, session {}",

@@ -7,7 +7,7 @@ use super::ur_rtde_program::UrRtdeProgram;
 /// A program while it runs.
 #[derive(Clone, Debug)]
 pub(super) enum Running {
-    Servo(RunningProgram),
+    Servo(Box<RunningProgram>),
     UrRtde(UrRtdeProgram),
 }
 
