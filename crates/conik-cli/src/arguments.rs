@@ -136,8 +136,25 @@ pub struct PlotArguments {
     pub quiet: bool,
 }
 
+/// What the emulator assumes, for its help.
+const EMULATOR_HELP: &str = "\
+Assumed, not identified on a real arm:
+  servoj        acceleration = gain x (q_ref - q - lookahead x speed), then clipped: to a ramp its
+                delay is the lookahead; nobody has published what the gain does
+  limits        3.14 rad/s and 40 rad/s^2 for every joint
+  stops         10 rad/s^2 when nothing commands the arm; a step of servoj's target above 0.1 rad
+                makes a protective stop
+  speed slider  slows time down
+Currents, torques, temperatures, payload and inputs read the same for ever.
+
+Faults, for --fault or as a line `emulator FAULT` at the dashboard (port 29999):
+  protective stop, emergency stop, program stop, pause, release, restart clock,
+  clock jump SECONDS, drop PROBABILITY, delay SECONDS, jitter SECONDS, freeze SECONDS, reset,
+  half-open, register in use NAME, bad packages COUNT, one-byte on, one-byte off";
+
 /// `conik emulate`
 #[derive(Debug, Args)]
+#[command(after_help = EMULATOR_HELP)]
 pub struct EmulateArguments {
     /// Which series of controllers to be: `cb3` (125 Hz) or `e` (500 Hz)
     #[arg(long, value_enum, default_value_t = SeriesArgument::E)]
@@ -151,6 +168,12 @@ pub struct EmulateArguments {
     /// Stand where this scenario starts
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub scenario: Option<PathBuf>,
+    /// Be in local control: an e-Series then takes no program from the network
+    #[arg(long)]
+    pub local: bool,
+    /// Start with this fault (see below); may be given several times
+    #[arg(long, value_name = "FAULT")]
+    pub fault: Vec<String>,
 }
 
 /// `conik preflight`

@@ -9,7 +9,8 @@ use conik::{
 use crate::joint_limits::limited_robot;
 use crate::mover::Mover;
 use crate::scenario::{
-    Axis, Border, Control, GoalConfig, ModeRule, Recursion, Scenario, TaskConfig, TaskKind,
+    Axis, Border, Control, Damping, DampingRule, GoalConfig, ModeRule, Recursion, Scenario,
+    TaskConfig, TaskKind,
 };
 
 /// A scenario made ready to run.
@@ -64,6 +65,7 @@ impl Experiment {
         for task in &scenario.tasks {
             let id = add_task(&mut stack, task)?;
             movers.extend(Mover::of(id, &task.kind));
+            stack.setpoints().set_damping(id, damping(task.damping))?;
             if let GoalConfig::Set {
                 recovery_per_s: Some(speed),
                 ..
@@ -151,6 +153,16 @@ fn settings(control: &Control) -> Settings {
             Recursion::Chiaverini => conik::Recursion::Chiaverini,
             Recursion::SicilianoSlotine => conik::Recursion::SicilianoSlotine,
         },
+    }
+}
+
+fn damping(config: Damping) -> conik::Damping {
+    match config {
+        Damping::Rule(DampingRule::Automatic) => conik::Damping::Automatic,
+        Damping::Rule(DampingRule::None) => conik::Damping::None,
+        Damping::Rule(DampingRule::Smallest) => conik::Damping::Smallest,
+        Damping::Rule(DampingRule::PerDirection) => conik::Damping::PerDirection,
+        Damping::Fixed(lambda) => conik::Damping::Fixed(lambda),
     }
 }
 

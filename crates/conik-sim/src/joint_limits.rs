@@ -2,7 +2,9 @@
 
 use conik::{Robot, RobotError};
 
-use crate::scenario::{GoalConfig, LimitsConfig, RobotConfig, Scenario, TaskConfig, TaskKind};
+use crate::scenario::{
+    Damping, GoalConfig, LimitsConfig, RobotConfig, Scenario, TaskConfig, TaskKind,
+};
 
 /// How the names of the sets begin that keep the joints within their position limits.
 pub const LIMIT: &str = "limit/";
@@ -24,6 +26,7 @@ impl Scenario {
                     recovery_per_s: None,
                     gain_per_s: None,
                 },
+                damping: Damping::default(),
             })
         });
         limits.chain(self.tasks.iter().cloned()).collect()

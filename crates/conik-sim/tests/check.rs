@@ -94,3 +94,27 @@ fn target_in_an_obstacle_is_doubted_where_that_comes_to_rest() {
         &["the target of `position` is 0.0500 m from the point of `ball`"],
     );
 }
+
+#[test]
+fn start_at_a_singularity_is_doubted_where_nothing_is_damped() {
+    let gain = "gain_per_s = 1";
+    let none = "gain_per_s = 1\ndamping = \"none\"";
+    assert_eq!(doubts(gain, none), [""; 0], "the arm is bent");
+    let stretched = |goal: &str| {
+        let text = SOUND
+            .replace("-158, -108, -90, -85", "-60, 0, 0, -85")
+            .replace(gain, goal);
+        let scenario = Scenario::from_toml(&text).expect("it is right");
+        let experiment = Experiment::new(&scenario).expect("it is right");
+        find(&scenario, &experiment).doubts
+    };
+    let found = stretched(none);
+    assert_eq!(found.len(), 1, "{found:?}");
+    assert!(
+        found[0].contains("hardly moves `position`") && found[0].contains("\"none\""),
+        "{found:?}"
+    );
+    for damped in [gain, "gain_per_s = 1\ndamping = 0.1"] {
+        assert_eq!(stretched(damped), [""; 0], "{damped}");
+    }
+}

@@ -5,8 +5,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use conik_sim::scenario::{
-    Border, Choice, Control, GoalConfig, LoadError, MAX_FILE_BYTES, ModeRule, Motion, Recursion,
-    Scenario, TaskKind, template,
+    Border, Choice, Control, Damping, DampingRule, GoalConfig, LoadError, MAX_FILE_BYTES, ModeRule,
+    Motion, Recursion, Scenario, TaskKind, template,
 };
 use proptest::prelude::*;
 
@@ -212,6 +212,52 @@ fn limits_motion_and_recovery_read_as_written_and_back() {
 }
 
 #[test]
+fn damping_reads_as_written_and_back() {
+    let read = |written: &str| {
+        let tasks = format!(
+            "[[task]]\nname = \"p\"\ntype = \"position\"\ntarget_m = [1, 2, 3]\ngain_per_s = 1\n{written}\n\
+             [[task]]\nname = \"low\"\ntype = \"joint\"\njoint = 1\nmin = 0\ngain_per_s = 1\n{written}\n"
+        );
+        let scenario = Scenario::from_toml(&with_tasks(&tasks)).expect("it is right");
+        let again = Scenario::from_toml(&scenario.to_toml());
+        assert_eq!(again.as_ref(), Ok(&scenario), "{written}");
+        let json = serde_json::to_string(&scenario).expect("it can be written");
+        let again: Scenario = serde_json::from_str(&json).expect("it can be read");
+        assert_eq!(again, scenario, "{json}");
+        let [of_equality, of_set] = [0, 1].map(|task| scenario.tasks[task].damping);
+        assert_eq!(of_equality, of_set, "{written}");
+        (of_equality, json)
+    };
+    let (absent, json) = read("");
+    assert_eq!(absent, Damping::Rule(DampingRule::Automatic));
+    assert!(!json.contains("damping"), "{json}");
+    for (rule, _) in DampingRule::ALL {
+        let (damping, _) = read(&format!("damping = {:?}", rule.name()));
+        assert_eq!(damping, Damping::Rule(*rule));
+        assert_eq!(
+            serde_json::json!(damping),
+            serde_json::json!(rule.name()),
+            "in JSON as in the file"
+        );
+    }
+    for (written, lambda) in [("0", 0.0), ("0.05", 0.05), ("3", 3.0), ("1e6", 1e6)] {
+        let (damping, _) = read(&format!("damping = {written}"));
+        assert_eq!(damping, Damping::Fixed(lambda));
+    }
+}
+
+#[test]
+fn a_set_without_an_equality_task_above_is_not_damped() {
+    let mut scenario = Scenario::load(example(2)).expect("it is right");
+    scenario.tasks[1].damping = Damping::Fixed(0.1);
+    let errors = scenario
+        .check()
+        .expect_err("the task is a high-priority set");
+    let keys: Vec<_> = errors.mistakes().iter().map(|m| m.key.as_str()).collect();
+    assert_eq!(keys, ["task[2] \"obstacle_b\".damping"]);
+}
+
+#[test]
 fn a_set_of_high_priority_needs_no_gain_and_a_gain_may_overshoot() {
     // At 125 Hz a gain of 249 1/s overshoots at every step, and still converges.
     let tasks = "[[task]]\nname = \"s\"\ntype = \"joint\"\njoint = 1\nmin = 0\nmax = 0\n\
@@ -351,9 +397,16 @@ fn any_scenario() -> impl Strategy<Value = Scenario> {
         2 => format!("type = \"field_of_view\"\ndirection = {v:?}\n"),
         _ => format!("type = \"joint\"\njoint = {joint}\n"),
     });
+    let damping = prop_oneof![
+        Just(String::new()),
+        prop::sample::select(DampingRule::ALL)
+            .prop_map(|(rule, _)| format!("damping = {:?}\n", rule.name())),
+        (0.0..1e6).prop_map(|lambda| format!("damping = {lambda:?}\n")),
+    ];
     let scalar = (measured, goal).prop_map(|(measured, goal)| measured + &goal);
-    let position = (vector, gain())
-        .prop_map(|(v, g)| format!("type = \"position\"\ntarget_m = {v:?}\ngain_per_s = {g:?}\n"));
+    let position = (vector, gain(), damping).prop_map(|(v, g, d)| {
+        format!("type = \"position\"\ntarget_m = {v:?}\ngain_per_s = {g:?}\n{d}")
+    });
     let task = prop_oneof![4 => scalar, 1 => position];
     let tasks = prop::collection::vec(task, 1..8);
     let title = prop::option::of(any::<String>());

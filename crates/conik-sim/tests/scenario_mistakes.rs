@@ -1,6 +1,7 @@
 //! Every mistake in a scenario file is reported at its line, under its key, with what is wrong and
 //! what would be right.
 
+use conik_sim::experiment::Experiment;
 use conik_sim::scenario::{Mistake, Scenario};
 
 /// A right scenario with every table, line by line; the cases below change one line each.
@@ -208,6 +209,19 @@ const CASES: &[Case] = &[
     case("desired = -1.5", "desired = -1.5\nrecovery_per_s = 1", "task[5] \"elbow\".recovery_per_s", 39, &["equality task", "`gain_per_s`"]),
     case("max = 0.26\n", "max = 0.26\nrecovery_per_s = 1\n", "task[4] \"view\".recovery_per_s", 33, &["low priority", "task[3] \"p\"", "move the task above"]),
     case("acceptance_m = 0.02", "acceptance_m = 0.02\nrecovery_per_s = 1", "task[3] \"p\".recovery_per_s", 27, &["cannot be a set"]),
+    // Damping.
+    case("desired = -1.5", "desired = -1.5\ndamping = \"per_direction\"", "task[5] \"elbow\".damping", 39, &["unknown name \"per_direction\"", "did you mean \"per-direction\"?", "or a number, from 0"]),
+    case("desired = -1.5", "desired = -1.5\ndamping = \"smalest\"", "task[5] \"elbow\".damping", 39, &["did you mean \"smallest\"?"]),
+    case("desired = -1.5", "desired = -1.5\ndamping = \"0.1\"", "task[5] \"elbow\".damping", 39, &["known: \"automatic\", \"none\", \"smallest\", \"per-direction\"", "or a number"]),
+    case("desired = -1.5", "desired = -1.5\ndamping = smallest", "task[5].damping", 39, &["write \"smallest\""]),
+    case("desired = -1.5", "desired = -1.5\ndamping = -0.1", "task[5] \"elbow\".damping", 39, &["-0.1 is out of range", "from 0 to 1000000 unit/rad"]),
+    case("desired = -1.5", "desired = -1.5\ndamping = 1e7", "task[5] \"elbow\".damping", 39, &["out of range"]),
+    case("desired = -1.5", "desired = -1.5\ndamping = nan", "task[5] \"elbow\".damping", 39, &["NaN is not a finite number"]),
+    case("desired = -1.5", "desired = -1.5\ndamping = inf", "task[5] \"elbow\".damping", 39, &["inf is not a finite number"]),
+    case("desired = -1.5", "desired = -1.5\ndamping = false", "task[5] \"elbow\".damping", 39, &["expected text in quotes, or a number, found false", "damping = \"per-direction\""]),
+    case("desired = -1.5", "desired = -1.5\ndampign = 0.1", "task[5] \"elbow\".dampign", 39, &["did you mean `damping`?"]),
+    case("min = 0.18", "min = 0.18\ndamping = \"automatic\"", "task[1] \"a\".damping", 17, &["a set above every equality task has high priority", "remove it"]),
+    case("max = 0.5", "max = 0.5\ndamping = 0.1", "task[2] \"b\".damping", 22, &["kept, never damped"]),
     // Positions.
     case(WAYPOINTS, "waypoints_m = []", "task[3] \"p\".waypoints_m", 25, &["the list is empty"]),
     case(WAYPOINTS, "waypoints_m = [0.4, 0.1, 0.2]", "task[3] \"p\".waypoints_m[1]", 25, &["a list of three numbers"]),
@@ -349,24 +363,68 @@ fn missing_tables_are_reported() {
     assert!(found[0].help.contains("[[task]]"), "{found:?}");
 }
 
-#[test]
-fn more_than_256_sets_are_refused() {
-    let scenario = |sets: usize| {
-        let set = |i| {
-            let name = format!("name = \"s{i}\"");
-            format!("[[task]]\n{name}\ntype = \"joint\"\njoint = 1\nmin = 0\ngain_per_s = 1\n")
-        };
-        // Three sets stand there already.
-        let added: Vec<_> = (3..sets).map(set).collect();
-        mistakes(&(GOOD.to_owned() + &added.concat()))
+/// `GOOD`, with tasks besides its five until there are so many.
+fn with_so_many(tasks: usize, is_set: impl Fn(usize) -> bool) -> String {
+    let task = |i| {
+        let goal = if is_set(i) { "min" } else { "desired" };
+        format!(
+            "[[task]]\nname = \"s{i}\"\ntype = \"joint\"\njoint = 1\n{goal} = 0\ngain_per_s = 1\n"
+        )
     };
-    assert_eq!(scenario(256), []);
-    let found = scenario(257);
-    assert_eq!(found.len(), 1);
-    assert!(
-        found[0].what.contains("257 set-based tasks are too many"),
-        "{found:?}"
+    let added: Vec<_> = (5..tasks).map(task).collect();
+    GOOD.to_owned() + &added.concat()
+}
+
+/// Refused at the header of the last task, in one message that has these parts; the controller
+/// cannot be made either, and with one task less it can.
+fn assert_one_too_many(tasks: usize, limits: &str, parts: &[&str]) {
+    let limited = |tasks| with_so_many(tasks, |i| i % 2 == 0).replacen("[control]", limits, 1);
+    let most = Scenario::from_toml(&limited(tasks - 1)).expect("so many may be");
+    let experiment = Experiment::new(&most).expect("it can be run");
+    assert_eq!(experiment.controller.stack().len(), conik::MAX_TASKS);
+    let text = limited(tasks);
+    let found = mistakes(&text);
+    assert_eq!(found.len(), 1, "{found:?}");
+    let name = format!("task[{tasks}] \"s{}\"", tasks - 1);
+    assert_eq!(found[0].key, name);
+    let header = text.rfind("[[task]]").expect("there are tasks");
+    assert_eq!(found[0].span.start, header);
+    let message = found[0].to_string();
+    for part in parts {
+        assert!(message.contains(part), "{part}: {message}");
+    }
+}
+
+#[test]
+fn more_tasks_than_the_controller_has_are_refused() {
+    assert_one_too_many(
+        257,
+        "[control]",
+        &["257 tasks are too many", "a scenario has at most 256"],
     );
+    assert_one_too_many(
+        255,
+        "position_limits_deg = [[-180, 180], [], [-180, 180], [], [], []]\n[control]",
+        &[
+            "255 tasks are too many",
+            "2 of them keep",
+            "position limits",
+            "at most 254",
+        ],
+    );
+}
+
+#[test]
+fn many_tasks_too_many_are_one_mistake() {
+    for is_set in [true, false] {
+        let found = mistakes(&with_so_many(1000, |_| is_set));
+        assert_eq!(found.len(), 1, "{found:?}");
+        assert_eq!(found[0].key, "task[257] \"s256\"");
+        assert!(
+            found[0].what.contains("1000 tasks are too many"),
+            "{found:?}"
+        );
+    }
 }
 
 #[test]

@@ -84,6 +84,14 @@ type = "coordinate"
 axis = "z"
 desired = 1
 gain_per_s = 2
+damping = 0.1
+[[task]]
+name = "wrist"
+type = "joint"
+joint = 6
+min = 1
+gain_per_s = 3
+damping = "smallest"
 "#;
 
 const PAIRS: &str = "position_limits_deg = [[-90, 90], [], [], [], [], []]";
@@ -119,6 +127,11 @@ fn schema_and_reader_refuse_the_same_mistakes() {
         ("velocity_m_per_s = [0, 0, 0.1]", ""),
         ("recovery_per_s = 0.1", "recovery_per_s = 0"),
         ("gain_per_s = 2", "gain_per_s = 2\nrecovery_per_s = 1"),
+        ("damping = 0.1", "damping = -0.1"),
+        ("damping = 0.1", "damping = 1e7"),
+        ("damping = 0.1", "damping = \"fixed\""),
+        ("damping = 0.1", "damping = []"),
+        ("damping = \"smallest\"", "damping = \"smalest\""),
         ("rate_hz = 125", "rate = 125"),
         ("rate_hz = 125", "rate_hz = 0"),
         ("rate_hz = 125", "rate_hz = \"fast\""),

@@ -171,6 +171,33 @@ fn a_level_that_loses_a_direction_says_so() {
 }
 
 #[test]
+fn a_level_far_from_singularities_has_lost_nothing() {
+    let bent = [-0.84, -2.76, -1.88, -1.57, -1.48, 0.0];
+    for settings in rules() {
+        let robot = Robot::builtin("ur5-paper").expect("built in");
+        let mut stack = Stack::new(&robot);
+        stack
+            .equality("position", Position::of_tool(), &[0.5, 0.0, 0.0], 0.1)
+            .expect("sound");
+        stack
+            .equality("joint", conik::JointPosition::of(3), &[0.0], 0.1)
+            .expect("sound");
+        let mut controller = Controller::new(&robot, stack, settings).expect("sound");
+        // What was lost at the stretched arm is no longer lost at the bent one.
+        for (q, is_lost) in [(stretched().q, true), (bent, false)] {
+            let step = controller.step(&q).expect("finite");
+            let says_so = step
+                .reasons()
+                .iter()
+                .any(|reason| matches!(reason, Reason::LosesRank { .. }));
+            let is_paper =
+                settings.recursion == Recursion::Chiaverini && settings.mode_rule != ModeRule::Cone;
+            assert!(says_so == is_lost || (is_paper && !says_so), "{settings:?}");
+        }
+    }
+}
+
+#[test]
 fn a_damping_that_is_no_number_is_refused() {
     let robot = Robot::builtin("ur5-paper").expect("built in");
     let mut stack = Stack::new(&robot);

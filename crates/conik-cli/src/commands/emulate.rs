@@ -6,7 +6,7 @@ use std::time::Duration;
 
 use conik::JointVec;
 use conik_sim::scenario::Scenario;
-use conik_ur::emulator::{Emulator, EmulatorConfig, Ports, Series};
+use conik_ur::emulator::{Emulator, EmulatorConfig, Ports, Series, faults};
 
 use crate::arguments::{EmulateArguments, SeriesArgument};
 use crate::failure::Failure;
@@ -31,21 +31,33 @@ pub fn emulate(arguments: &EmulateArguments) -> Result<ExitCode, Failure> {
     };
     let config = EmulatorConfig {
         listen: arguments.listen,
+        remote_control: !arguments.local,
         ports: Ports::Real {
             offset: arguments.port_offset,
         },
         ..EmulatorConfig::new(series, q0)
     };
+    let faults: Vec<_> = arguments
+        .fault
+        .iter()
+        .map(|line| faults::parse(line))
+        .collect::<Result<_, _>>()
+        .map_err(Failure::input)?;
     let stop = super::run::stop_on_ctrl_c()?;
     let emulator = Emulator::start(config).map_err(Failure::input)?;
+    for fault in faults {
+        emulator.strike(fault);
+    }
     super::print(&format!(
-        "{} at {} Hz on {}: RTDE {}, programs {}; Ctrl-C ends it\n\
+        "{} at {} Hz on {}: RTDE {}, programs {}, real-time {}, dashboard {}; Ctrl-C ends it\n\
          The servo is a model (lookahead and gain as a spring and damper), not an identified arm.\n",
         emulator.config().name,
         emulator.config().rate_hz,
         arguments.listen,
         emulator.rtde_port(),
         emulator.script_port(),
+        emulator.real_time_port(),
+        emulator.dashboard_port(),
     ))?;
     let mut last: Option<String> = None;
     while !stop.load(Ordering::Relaxed) {

@@ -7,7 +7,7 @@ use std::path::PathBuf;
 
 use conik_sim::monitors::{JointMonitor, Monitors, Sighting, Verdict};
 use conik_sim::scenario::{
-    Border, Control, GoalConfig, LimitsConfig, ModeRule, Recursion, RobotConfig, Scenario,
+    Border, Control, Damping, GoalConfig, LimitsConfig, ModeRule, Recursion, RobotConfig, Scenario,
     TaskConfig, TaskKind,
 };
 use conik_sim::summary::{
@@ -169,6 +169,7 @@ impl Invention {
                     recovery_per_s: None,
                     gain_per_s: None,
                 },
+                damping: Damping::default(),
             })
             .collect();
         if self.has_equality {
@@ -190,6 +191,7 @@ impl Invention {
                         gain_per_s: 0.3,
                     }
                 },
+                damping: Damping::default(),
             });
         }
         if self.has_view {
@@ -205,6 +207,7 @@ impl Invention {
                     recovery_per_s: None,
                     gain_per_s: Some(1.0),
                 },
+                damping: Damping::default(),
             };
             tasks.insert(0, view);
         }

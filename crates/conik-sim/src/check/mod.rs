@@ -1,6 +1,7 @@
 //! What is doubtful about a scenario that is otherwise sound.
 
 mod obstacles;
+mod singular;
 
 use conik::{Frame, Goal, Kinematics, Stack, TaskId, dependent_tasks};
 
@@ -8,6 +9,7 @@ use crate::experiment::Experiment;
 use crate::joint_limits::LIMIT;
 use crate::scenario::{Border, Choice, Control, ModeRule, Recursion, Scenario};
 use obstacles::{exclusive_obstacles_that_meet, goals_in_obstacles, obstacles_too_fast, targets};
+use singular::undamped_at_a_singularity;
 
 /// What a look at a scenario found, before anything moves.
 #[derive(Clone, Debug, PartialEq)]
@@ -37,6 +39,7 @@ pub fn find(scenario: &Scenario, experiment: &Experiment) -> Findings {
     rules_that_stand_in_the_way(&scenario.control, &mut doubts);
     starts_outside(stack, &values, &mut doubts);
     depends(stack, &dependent_tasks(stack, &kinematics), &mut doubts);
+    undamped_at_a_singularity(scenario, stack, &kinematics, &mut doubts);
     goals_in_obstacles(scenario, &mut doubts);
     obstacles_too_fast(scenario, experiment, &kinematics, &mut doubts);
     if scenario.control.mode_rule == ModeRule::Cone {

@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::damping::Damping;
 use super::motion::Motion;
 use super::ur::UrSettings;
 
@@ -123,6 +124,9 @@ pub struct TaskConfig {
     /// What is asked of it.
     #[serde(flatten)]
     pub goal: GoalConfig,
+    /// How it is damped near singularities; a set of high priority is no level, and is not.
+    #[serde(default, skip_serializing_if = "Damping::is_default")]
+    pub damping: Damping,
 }
 
 /// What a task measures; `type` in the file.

@@ -2,6 +2,8 @@
 
 use std::collections::{HashMap, HashSet};
 
+use conik::MAX_TASKS;
+
 use super::control::Group;
 use super::keys;
 use super::mistake::{Mistakes, quoted};
@@ -10,14 +12,13 @@ use super::place;
 use super::suggest::nearest;
 use super::task::{ReadTask, Role};
 
-/// Set-based tasks that one scenario may have at most.
-const MOST_SETS: usize = 256;
-
-pub(super) fn check(tasks: &[ReadTask], groups: &[Group], found: &mut Mistakes) {
+/// What is wrong with the tasks of a robot that has position limits at `limits` of its joints.
+pub(super) fn check(tasks: &[ReadTask], limits: usize, groups: &[Group], found: &mut Mistakes) {
     names::check_unique(tasks, found);
     check_low_priority_gains(tasks, found);
+    check_high_priority_damping(tasks, found);
     check_one_has_waypoints(tasks, found);
-    check_number_of_sets(tasks, found);
+    check_number(tasks, limits, found);
     for group in groups {
         check_group(group, tasks, found);
     }
@@ -59,6 +60,22 @@ fn check_low_priority_gains(tasks: &[ReadTask], found: &mut Mistakes) {
     }
 }
 
+/// A set-based task above every equality task is kept exactly, and is no level that could be damped.
+fn check_high_priority_damping(tasks: &[ReadTask], found: &mut Mistakes) {
+    // Below a task that may be meant as an equality task nothing is sure.
+    let high = tasks.iter().take_while(|task| task.role == Role::Set);
+    for task in high {
+        if let Some(span) = task.damping.clone() {
+            found.add(
+                span,
+                place::join(&task.path, keys::DAMPING.name),
+                "a set above every equality task has high priority: it is kept, never damped",
+                "remove it; equality tasks and the sets below one have `damping`",
+            );
+        }
+    }
+}
+
 /// The log has one column for the waypoint in use.
 fn check_one_has_waypoints(tasks: &[ReadTask], found: &mut Mistakes) {
     let mut with_waypoints = tasks
@@ -80,16 +97,26 @@ fn check_one_has_waypoints(tasks: &[ReadTask], found: &mut Mistakes) {
     }
 }
 
-fn check_number_of_sets(tasks: &[ReadTask], found: &mut Mistakes) {
-    let sets = || tasks.iter().filter(|task| task.role == Role::Set);
-    if let Some(task) = sets().nth(MOST_SETS) {
-        found.add(
-            task.header.clone(),
-            &*task.path,
-            format!("{} set-based tasks are too many", sets().count()),
-            format!("a scenario has at most {MOST_SETS}"),
-        );
-    }
+/// The controller has a task for every joint with position limits besides those of the file. The
+/// first that it cannot have is reported.
+fn check_number(tasks: &[ReadTask], limits: usize, found: &mut Mistakes) {
+    let most = MAX_TASKS.saturating_sub(limits);
+    let Some(task) = tasks.get(most) else {
+        return;
+    };
+    let help = match limits {
+        0 => format!("a scenario has at most {most}"),
+        _ => format!(
+            "the controller has at most {MAX_TASKS}, and {limits} of them keep the joints' position \
+             limits: give at most {most}"
+        ),
+    };
+    found.add(
+        task.header.clone(),
+        &*task.path,
+        format!("{} tasks are too many", tasks.len()),
+        help,
+    );
 }
 
 /// Notes what is wrong with one group of `exclusive`.

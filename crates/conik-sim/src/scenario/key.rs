@@ -42,7 +42,8 @@ impl Key {
             | Holds::NumberOrJointNumbers(range)
             | Holds::JointPairs(range)
             | Holds::Vector(range)
-            | Holds::Points(range) => range,
+            | Holds::Points(range)
+            | Holds::ChoiceOrNumber(_, range) => range,
             _ => Range::FINITE,
         }
     }
@@ -85,6 +86,8 @@ pub(super) enum Holds {
     Joint,
     /// One of a fixed list of names, each with one line for people.
     Choice(fn() -> Vec<(&'static str, &'static str)>),
+    /// One of a fixed list of names, or a number.
+    ChoiceOrNumber(fn() -> Vec<(&'static str, &'static str)>, Range),
     /// Groups of task names.
     NameGroups,
     /// A table of its own, `[name]`.
@@ -96,12 +99,12 @@ pub(super) enum Holds {
 impl Holds {
     /// One of the values of a [`Choice`].
     pub(super) const fn choice<T: Choice>() -> Self {
-        Self::Choice(|| {
-            T::ALL
-                .iter()
-                .map(|(value, about)| (value.name(), *about))
-                .collect()
-        })
+        Self::Choice(named::<T>)
+    }
+
+    /// One of the values of a [`Choice`], or a number.
+    pub(super) const fn choice_or_number<T: Choice>(range: Range) -> Self {
+        Self::ChoiceOrNumber(named::<T>, range)
     }
 
     /// For "expected ..., found ...".
@@ -117,11 +120,20 @@ impl Holds {
             Self::Vector(_) => "a list of three numbers",
             Self::Points(_) => "a list of points, each of three numbers",
             Self::Joint => "the number of a joint or its name",
+            Self::ChoiceOrNumber(..) => "text in quotes, or a number",
             Self::NameGroups => "a list of groups, each a list of task names",
             Self::Table => "a table",
             Self::Tables => "a list of tables",
         }
     }
+}
+
+/// The names of the values of a [`Choice`], each with one line for people.
+fn named<T: Choice>() -> Vec<(&'static str, &'static str)> {
+    let values = T::ALL.iter();
+    values
+        .map(|(value, about)| (value.name(), *about))
+        .collect()
 }
 
 /// Which numbers are allowed; NaN and the infinities never are.

@@ -2,6 +2,7 @@
 //! add one, add it here, to the list of its table, and to the function that reads that table.
 
 use super::config::{Axis, Border, ModeRule, Recursion};
+use super::damping::DampingRule;
 use super::key::{Holds, Key, Range};
 pub(super) use super::robot_keys::*;
 pub(super) use super::ur_keys::*;
@@ -129,9 +130,16 @@ pub(super) const TYPE: Key = Key::new(
 );
 
 /// What can be asked of a task with one value.
-pub(super) const SCALAR_GOAL: &[&Key] = &[&DESIRED, &MIN, &MAX, &RECOVERY_PER_S, &GAIN_PER_S];
+pub(super) const SCALAR_GOAL: &[&Key] =
+    &[&DESIRED, &MIN, &MAX, &RECOVERY_PER_S, &GAIN_PER_S, &DAMPING];
 /// What can be asked of a task whose value is a point.
-pub(super) const POINT_GOAL: &[&Key] = &[&WAYPOINTS_M, &ACCEPTANCE_M, &TARGET_M, &GAIN_PER_S];
+pub(super) const POINT_GOAL: &[&Key] = &[
+    &WAYPOINTS_M,
+    &ACCEPTANCE_M,
+    &TARGET_M,
+    &GAIN_PER_S,
+    &DAMPING,
+];
 
 pub(super) const DESIRED: Key = Key::new(
     "desired",
@@ -191,6 +199,15 @@ pub(super) const RECOVERY_PER_S: Key = Key::new(
      per second. Without it, it is only kept from getting worse",
     Holds::Number(Range::positive(Range::SANE.most)),
     "0.05",
+);
+
+pub(super) const DAMPING: Key = Key::new(
+    "damping",
+    "unit/rad",
+    "Equality task or set-based task of low priority: how it is damped near singularities; a number \
+     is the same λ everywhere, in the task's unit per radian. Without it, \"automatic\"",
+    Holds::choice_or_number::<DampingRule>(Range::between(0.0, Range::SANE.most)),
+    r#""per-direction""#,
 );
 
 /// What some task types ask for besides.

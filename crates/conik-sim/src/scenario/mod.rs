@@ -12,6 +12,7 @@
 mod choice;
 mod config;
 mod control;
+mod damping;
 mod direction;
 mod goal;
 mod hierarchy;
@@ -44,6 +45,7 @@ pub use config::{
     Axis, Border, Control, GoalConfig, LimitsConfig, ModeRule, Recursion, RobotConfig, Scenario,
     TaskConfig, TaskKind,
 };
+pub use damping::{Damping, DampingRule};
 pub use load::{LoadError, MAX_FILE_BYTES};
 pub use mistake::{Mistake, ScenarioErrors};
 pub use motion::Motion;

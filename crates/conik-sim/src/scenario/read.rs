@@ -1,6 +1,6 @@
 //! Reading a scenario: the tables of the file from top to bottom, then what concerns all tasks.
 
-use super::config::Scenario;
+use super::config::{LimitsConfig, Scenario};
 use super::control::{self, ReadControl};
 use super::hierarchy;
 use super::keys;
@@ -48,6 +48,14 @@ impl Scenario {
     }
 }
 
+/// How many joints have position limits, each of which is one more task of the controller.
+fn position_limits(limits: &LimitsConfig, robot: Option<&RobotFacts>) -> usize {
+    match &limits.position_limits_rad {
+        Some(pairs) => pairs.iter().flatten().count(),
+        None => robot.map_or(0, |robot| robot.position_limits),
+    }
+}
+
 fn read_file(file: &Table, found: &mut Mistakes) -> Option<Scenario> {
     file.refuse_unknown_keys(&keys::FILE.iter().copied(), |_| None, found);
     let title = match file.text(&keys::TITLE, found) {
@@ -90,7 +98,10 @@ fn read_file(file: &Table, found: &mut Mistakes) -> Option<Scenario> {
         if tasks.is_empty() {
             file.missing(&keys::TASK, found);
         }
-        hierarchy::check(tasks, &control.groups, found);
+        let limits = robot
+            .as_ref()
+            .map_or(0, |robot| position_limits(&robot.limits, facts));
+        hierarchy::check(tasks, limits, &control.groups, found);
     }
 
     Some(Scenario {

@@ -11,6 +11,8 @@ pub struct RobotFacts {
     pub name: String,
     /// Names of the joints, base to tool.
     pub joint_names: Vec<String>,
+    /// How many of the joints have position limits, unless a scenario overrides them.
+    pub position_limits: usize,
 }
 
 static KNOWN: LazyLock<Vec<RobotFacts>> = LazyLock::new(|| {
@@ -20,6 +22,11 @@ static KNOWN: LazyLock<Vec<RobotFacts>> = LazyLock::new(|| {
         .map(|robot| RobotFacts {
             name: robot.name().to_owned(),
             joint_names: robot.joint_names().map(str::to_owned).collect(),
+            position_limits: robot
+                .joints()
+                .iter()
+                .filter(|joint| joint.limits.position.is_some())
+                .count(),
         })
         .collect()
 });

@@ -49,7 +49,7 @@ fn property(key: &Key) -> Value {
         unit => format!(" [{unit}]"),
     };
     let mut about = vec![format!("{}{unit}", key.about)];
-    if let Holds::Choice(values) = key.holds {
+    if let Holds::Choice(values) | Holds::ChoiceOrNumber(values, _) = key.holds {
         let meanings = values().into_iter();
         about.extend(meanings.map(|(name, meaning)| format!("- `{name}`: {meaning}")));
     }
@@ -94,9 +94,9 @@ fn holds(key: &Key) -> Value {
             { "type": "integer", "minimum": 1 },
             { "type": "string", "enum": joint_names() },
         ] }),
-        Holds::Choice(values) => {
-            let names: Vec<_> = values().into_iter().map(|(name, _)| name).collect();
-            json!({ "type": "string", "enum": names })
+        Holds::Choice(values) => one_of(values()),
+        Holds::ChoiceOrNumber(values, range) => {
+            json!({ "anyOf": [one_of(values()), number(range)] })
         }
         Holds::NameGroups => json!({
             "type": "array",
@@ -112,6 +112,12 @@ fn holds(key: &Key) -> Value {
         Holds::Table => table(keys::CONTROL_KEYS, &[]),
         Holds::Tables => json!({ "type": "array", "items": task(), "minItems": 1 }),
     }
+}
+
+/// One of these names.
+fn one_of(values: Vec<(&'static str, &'static str)>) -> Value {
+    let names: Vec<_> = values.into_iter().map(|(name, _)| name).collect();
+    json!({ "type": "string", "enum": names })
 }
 
 fn number(range: Range) -> Value {

@@ -3,6 +3,7 @@
 use std::ops::Range;
 
 use super::config::TaskConfig;
+use super::damping::{self, Damping};
 use super::goal;
 use super::key::Key;
 use super::keys;
@@ -30,6 +31,8 @@ pub(super) struct ReadTask {
     pub(super) has_gain: bool,
     /// Where its speed of recovery stands.
     pub(super) recovery: Option<Range<usize>>,
+    /// Where its damping stands.
+    pub(super) damping: Option<Range<usize>>,
     /// Where its waypoints stand.
     pub(super) waypoints: Option<Range<usize>>,
 }
@@ -63,11 +66,13 @@ pub(super) fn read(table: &Table, surroundings: Surroundings, found: &mut Mistak
         Some(task_type) => goal::read(&table, task_type, surroundings, found),
         None => goal::look_over(&table, found),
     };
+    let damping = damping::read(&table, found).or(Damping::default());
     let config = || {
         Some(TaskConfig {
             name: name.as_ref()?.value.clone(),
             kind: kind?,
             goal: goal?,
+            damping: damping?,
         })
     };
     ReadTask {
@@ -75,6 +80,7 @@ pub(super) fn read(table: &Table, surroundings: Surroundings, found: &mut Mistak
         role: role(&table, task_type),
         has_gain: table.has(&keys::GAIN_PER_S),
         recovery: place_of(&table, &keys::RECOVERY_PER_S),
+        damping: place_of(&table, &keys::DAMPING),
         waypoints: place_of(&table, &keys::WAYPOINTS_M),
         name,
         header: table.header.clone(),

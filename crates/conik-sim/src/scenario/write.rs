@@ -6,12 +6,14 @@ use super::choice::Choice;
 use super::config::{
     Control, GoalConfig, LimitsConfig, RobotConfig, Scenario, TaskConfig, TaskKind,
 };
+use super::damping;
 use super::key::Key;
 use super::keys;
 use super::task_types;
 
 impl Scenario {
-    /// The scenario as the text of a scenario file: every setting stands in it, defaults too.
+    /// The scenario as the text of a scenario file: every setting of robot and control
+    /// stands in it, defaults too.
     pub fn to_toml(&self) -> String {
         let mut file = Lines::default();
         if let Some(title) = &self.title {
@@ -146,6 +148,9 @@ fn write_task(task: &TaskConfig, file: &mut Lines) {
                 }
             }
         }
+    }
+    if let Some((key, value)) = damping::written(task.damping) {
+        file.line(key.name, &value);
     }
 }
 

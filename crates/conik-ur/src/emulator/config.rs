@@ -80,6 +80,8 @@ pub struct EmulatorConfig {
     pub q0: JointVec,
     /// Address to listen on.
     pub listen: IpAddr,
+    /// Whether programs are taken from the network, as in an e-Series' remote control.
+    pub remote_control: bool,
     /// Ports to listen on.
     pub ports: Ports,
     /// How its clock goes.
@@ -104,6 +106,7 @@ impl EmulatorConfig {
             rate_hz: series.rate_hz(),
             q0,
             listen: IpAddr::V4(Ipv4Addr::LOCALHOST),
+            remote_control: true,
             ports: Ports::Free,
             pace: Pace::WallTime,
             speed_limit: PI,
@@ -129,6 +132,33 @@ pub enum Injection {
     RestartClock,
     /// Stops are released, the arm is powered and ready again.
     Release,
+}
+
+/// A fault that can be brought about while the emulator runs.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Fault {
+    /// Something happens to the controller.
+    Event(Injection),
+    /// The clock leaps ahead [s].
+    ClockJump(f64),
+    /// Each package of outputs is left out with this probability.
+    Drop(f64),
+    /// Packages of outputs wait so long [s], rounded to cycles.
+    Delay(f64),
+    /// Packages of outputs wait up to so much longer [s].
+    Jitter(f64),
+    /// No outputs are sent for so long [s], as when the controller is busy.
+    Freeze(f64),
+    /// All RTDE connections are cut.
+    Reset,
+    /// All RTDE connections fall silent in both directions but stay open.
+    HalfOpen,
+    /// A fieldbus claims the input of this name.
+    RegisterInUse(String),
+    /// So many packages of outputs lack their last byte.
+    BadPackages(u32),
+    /// Whether everything is written one byte at a time.
+    OneByte(bool),
 }
 
 /// Why an emulator cannot start.

@@ -1,9 +1,12 @@
 //! The emulated controller itself: clock, safety, program and arm. No threads, no sockets.
 
-use super::config::{EmulatorConfig, EmulatorError, Injection};
+use super::config::{EmulatorConfig, EmulatorError, Injection, Series};
 use super::fields::InputField;
+use super::power::Power;
 use super::registers::Registers;
+use super::running::Running;
 use super::servo_program::{Motion, RunningProgram};
+use super::ur_rtde_program::UrRtdeProgram;
 use crate::program::ServoProgram;
 use crate::registers::JOINTS;
 use crate::wire::Value;
@@ -28,7 +31,9 @@ pub(super) enum Safety {
 /// The controller and its arm.
 #[derive(Debug)]
 pub(super) struct Controller {
-    rate_hz: f64,
+    pub(super) series: Series,
+    pub(super) remote_control: bool,
+    pub(super) rate_hz: f64,
     largest_step: f64,
     stop_deceleration: f64,
     /// Control cycles since the start, which the clock counts.
@@ -42,8 +47,18 @@ pub(super) struct Controller {
     /// Target of the last `servoj`.
     servo_target: Option<[f64; JOINTS]>,
     pub(super) safety: Safety,
-    pub(super) running: Option<RunningProgram>,
+    /// The cycle of the last protective stop.
+    pub(super) stopped_at: u64,
+    pub(super) power: Power,
+    pub(super) slider: f64,
+    pub(super) digital: u32,
+    pub(super) analog: [f64; 2],
+    pub(super) running: Option<Running>,
     pub(super) paused: bool,
+    /// The program that the dashboard was told to load.
+    pub(super) loaded: String,
+    /// What jumps have added to the clock [s].
+    pub(super) clock_jump_s: f64,
     log: VecDeque<String>,
 }
 
@@ -60,6 +75,8 @@ impl Controller {
             config.q0,
         )?;
         Ok(Self {
+            series: config.series,
+            remote_control: config.remote_control,
             rate_hz: config.rate_hz,
             largest_step: config.largest_step,
             stop_deceleration: config.stop_deceleration,
@@ -70,8 +87,15 @@ impl Controller {
             actual: (config.q0, JointVec::zeros(JOINTS)),
             servo_target: None,
             safety: Safety::Normal,
+            stopped_at: 0,
+            power: Power::Running,
+            slider: 1.0,
+            digital: 0,
+            analog: [0.0; 2],
             running: None,
             paused: false,
+            loaded: String::new(),
+            clock_jump_s: 0.0,
             log: VecDeque::new(),
         })
     }
@@ -79,26 +103,46 @@ impl Controller {
     /// One control cycle.
     pub(super) fn cycle(&mut self) {
         self.cycles += 1;
-        self.actual = (*self.servo.q(), *self.servo.qd());
+        self.actual = (*self.servo.q(), self.target_qd().into());
+        self.apply_switches();
         let motion = match &mut self.running {
             Some(running) if !self.paused => running.cycle(&mut self.registers),
             _ => Motion::Rest,
         };
         let cycle_s = 1.0 / self.rate_hz;
+        let motion = match motion {
+            Motion::ServoWith {
+                target,
+                lookahead_s,
+                gain,
+            } => {
+                let model = ServoModel {
+                    lookahead_s,
+                    gain_per_s2: gain,
+                    ..*self.servo.model()
+                };
+                // Within servoj's ranges, so that no servo refuses them.
+                let _ = self.servo.set_model(model);
+                Motion::Servo(target)
+            }
+            other => other,
+        };
         match motion {
             Motion::Servo(target) if self.may_follow(&target) => {
                 self.servo_target = Some(target);
-                self.servo.follow(&target.into(), cycle_s);
+                // The slider slows time down; at 0 it would stand still for ever.
+                let slowed = cycle_s * self.slider.max(0.001);
+                self.servo.follow(&target.into(), slowed);
             }
             Motion::Brake(deceleration) => self.servo.brake(deceleration, cycle_s),
-            Motion::Servo(_) | Motion::Rest => self.servo.brake(self.stop_deceleration, cycle_s),
+            Motion::Servo(_) | Motion::ServoWith { .. } | Motion::Rest => {
+                self.servo.brake(self.stop_deceleration, cycle_s);
+            }
         }
         if !self.paused
-            && let Some(running) = &self.running
-            && running.is_ending()
+            && let Some(line) = self.running.as_ref().and_then(Running::ending)
             && self.servo.is_still()
         {
-            let line = format!("servo program ended: {:?}", running.phase());
             self.end_program(&line);
         }
         self.watch();
@@ -125,10 +169,9 @@ impl Controller {
     /// The watchdog on the counter.
     fn watch(&mut self) {
         let Some(running) = &self.running else { return };
-        let Some(allowed) = running.watchdog_cycles(self.rate_hz) else {
+        let Some((counter, allowed)) = running.watchdog(self.rate_hz) else {
             return;
         };
-        let counter = running.program().registers.first();
         let silent = self
             .cycles
             .saturating_sub(self.registers.written_at(counter));
@@ -139,10 +182,22 @@ impl Controller {
 
     /// Takes a program that came in on the script port; the error says why it does not run.
     pub(super) fn upload(&mut self, text: &str) -> Result<(), String> {
-        let program = ServoProgram::parse(text).map_err(|error| error.to_string())?;
-        if self.safety != Safety::Normal {
-            return Err("a program cannot start while the arm is stopped for safety".to_owned());
+        if !self.remote_control && self.series == Series::E {
+            return Err("the controller is not in remote control".to_owned());
         }
+        if let Some(reason) = self.why_not_ready() {
+            return Err(reason.to_owned());
+        }
+        if let Some(program) = UrRtdeProgram::recognise(text) {
+            if self.running.is_some() {
+                self.end_program("program stopped by a new one");
+            }
+            self.running = Some(Running::UrRtde(program));
+            self.paused = false;
+            self.note("ur_rtde program started");
+            return Ok(());
+        }
+        let program = ServoProgram::parse(text).map_err(|error| error.to_string())?;
         let model = ServoModel {
             lookahead_s: program.lookahead_s,
             gain_per_s2: program.gain,
@@ -155,7 +210,7 @@ impl Controller {
             self.end_program("program stopped by a new one");
         }
         let running = RunningProgram::begin(program, 1.0 / self.rate_hz, &mut self.registers);
-        self.running = Some(running);
+        self.running = Some(Running::Servo(running));
         self.paused = false;
         self.note(&format!(
             "servo program started, session {}",
@@ -169,6 +224,7 @@ impl Controller {
             Injection::ProtectiveStop => self.protective_stop("injected"),
             Injection::EmergencyStop => {
                 self.safety = Safety::EmergencyStop;
+                self.power = Power::Off;
                 self.end_program("emergency stop");
             }
             Injection::StopProgram => self.end_program("program stopped at the pendant"),
@@ -177,22 +233,27 @@ impl Controller {
                 self.note("program paused at the pendant");
             }
             Injection::RestartClock => {
-                self.clock_zero = self.cycles;
+                (self.clock_zero, self.clock_jump_s) = (self.cycles, 0.0);
                 self.note("clock restarted");
             }
             Injection::Release => {
                 self.safety = Safety::Normal;
+                self.power = Power::Running;
                 self.note("stops released");
             }
         }
     }
 
     fn protective_stop(&mut self, why: &str) {
-        self.safety = Safety::ProtectiveStop;
+        // Stops are told apart by the gravest.
+        if self.safety != Safety::EmergencyStop {
+            self.safety = Safety::ProtectiveStop;
+        }
+        self.stopped_at = self.cycles;
         self.end_program(&format!("protective stop: {why}"));
     }
 
-    fn end_program(&mut self, why: &str) {
+    pub(super) fn end_program(&mut self, why: &str) {
         self.running = None;
         self.paused = false;
         self.servo_target = None;
@@ -205,7 +266,12 @@ impl Controller {
 
     /// A multiple of the cycle, so that clients may count cycles by it.
     pub(super) fn timestamp(&self) -> f64 {
-        BOOTED_AT_S + (self.cycles - self.clock_zero) as f64 / self.rate_hz
+        BOOTED_AT_S + self.clock_jump_s + (self.cycles - self.clock_zero) as f64 / self.rate_hz
+    }
+
+    /// Speed of the joints [rad/s]; the speed slider slows it down.
+    pub(super) fn target_qd(&self) -> [f64; JOINTS] {
+        six(self.servo.qd()).map(|speed| speed * self.slider)
     }
 
     pub(super) fn cycles(&self) -> u64 {
@@ -327,6 +393,37 @@ mod tests {
             controller.cycle();
             assert_eq!(controller.output(OutputField::ActualQ), commanded);
             commanded = controller.output(OutputField::TargetQ);
+        }
+    }
+
+    /// For gains and lookaheads from one end of their ranges to the other, in both series.
+    #[test]
+    fn a_ramp_is_followed_with_the_lookahead_as_its_delay_within_one_cycle() {
+        let speed = 0.5;
+        for (series, cycles) in [(Series::Cb3, 375), (Series::E, 1500)] {
+            for (lookahead_s, gain) in [(0.1, 300.0), (0.03, 2000.0), (0.2, 100.0), (0.2, 2000.0)] {
+                let config = EmulatorConfig::new(series, JointVec::zeros(JOINTS));
+                let mut controller = Controller::new(&config).unwrap();
+                let cycle_s = 1.0 / series.rate_hz();
+                let program = ServoProgram {
+                    cycle_s,
+                    lookahead_s,
+                    gain,
+                    ..PROGRAM
+                };
+                controller.upload(&program.text().unwrap()).unwrap();
+                let mut q_ref = 0.0;
+                for counter in 1..=cycles {
+                    q_ref = f64::from(counter) * speed * cycle_s;
+                    give(&mut controller, counter, q_ref);
+                    controller.cycle();
+                }
+                let delay = (q_ref - controller.servo.q()[0]) / speed;
+                assert!(
+                    (delay - lookahead_s).abs() <= cycle_s + 1e-9,
+                    "{series:?}, lookahead {lookahead_s} s, gain {gain}: {delay} s"
+                );
+            }
         }
     }
 }

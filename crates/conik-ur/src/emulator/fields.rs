@@ -1,7 +1,8 @@
 //! The fields that the emulated controller has, by name. Any other is `NOT_FOUND`.
 
+use super::not_simulated::Constant;
 use crate::registers::REGISTER_COUNT;
-use crate::wire::FieldType;
+use crate::wire::{FieldType, Value};
 
 /// A field that clients may read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -12,6 +13,12 @@ pub(super) enum OutputField {
     TargetQdd,
     ActualQ,
     ActualQd,
+    TargetTcpPose,
+    TargetTcpSpeed,
+    ActualTcpPose,
+    ActualTcpSpeed,
+    DigitalOutputs,
+    AnalogOutput(usize),
     RobotMode,
     SafetyMode,
     RuntimeState,
@@ -23,6 +30,8 @@ pub(super) enum OutputField {
     OutputDouble(usize),
     /// Inputs can be read back.
     Input(InputField),
+    /// One that is not simulated.
+    Constant(Constant),
 }
 
 /// A field that clients may write.
@@ -30,7 +39,40 @@ pub(super) enum OutputField {
 pub(super) enum InputField {
     Int(usize),
     Double(usize),
+    Bit(usize),
+    /// Index in [`NAMED_INPUTS`].
+    Named(usize),
 }
+
+/// Where the speed slider's mask and position, and the outputs' masks and values, stand in
+/// [`NAMED_INPUTS`].
+pub(super) const SLIDER_MASK: usize = 0;
+pub(super) const SLIDER: usize = 1;
+pub(super) const DIGITAL: [(usize, usize, u32); 3] = [(2, 3, 0), (4, 5, 8), (6, 7, 16)];
+pub(super) const ANALOG_MASK: usize = 8;
+pub(super) const ANALOG: [usize; 2] = [10, 11];
+
+/// Inputs that are no registers.
+pub(super) const NAMED_INPUTS: [(&str, Value); 15] = [
+    ("speed_slider_mask", Value::Uint32(0)),
+    ("speed_slider_fraction", Value::Double(0.0)),
+    ("standard_digital_output_mask", Value::Uint8(0)),
+    ("standard_digital_output", Value::Uint8(0)),
+    ("configurable_digital_output_mask", Value::Uint8(0)),
+    ("configurable_digital_output", Value::Uint8(0)),
+    ("tool_digital_output_mask", Value::Uint8(0)),
+    ("tool_digital_output", Value::Uint8(0)),
+    ("standard_analog_output_mask", Value::Uint8(0)),
+    ("standard_analog_output_type", Value::Uint8(0)),
+    ("standard_analog_output_0", Value::Double(0.0)),
+    ("standard_analog_output_1", Value::Double(0.0)),
+    ("external_force_torque", Value::Vector6d([0.0; 6])),
+    ("input_bit_registers0_to_31", Value::Uint32(0)),
+    ("input_bit_registers32_to_63", Value::Uint32(0)),
+];
+
+/// Bit registers for clients: 64 to 127.
+const BIT_REGISTERS: std::ops::Range<u8> = 64..128;
 
 impl OutputField {
     pub(super) fn from_name(name: &str) -> Option<Self> {
@@ -41,6 +83,13 @@ impl OutputField {
             "target_qdd" => Self::TargetQdd,
             "actual_q" => Self::ActualQ,
             "actual_qd" => Self::ActualQd,
+            "target_TCP_pose" => Self::TargetTcpPose,
+            "target_TCP_speed" => Self::TargetTcpSpeed,
+            "actual_TCP_pose" => Self::ActualTcpPose,
+            "actual_TCP_speed" => Self::ActualTcpSpeed,
+            "actual_digital_output_bits" => Self::DigitalOutputs,
+            "standard_analog_output0" => Self::AnalogOutput(0),
+            "standard_analog_output1" => Self::AnalogOutput(1),
             "robot_mode" => Self::RobotMode,
             // In the states emulated here, both count alike.
             "safety_mode" | "safety_status" => Self::SafetyMode,
@@ -53,7 +102,8 @@ impl OutputField {
                 return register(name, "output_int_register_")
                     .map(Self::OutputInt)
                     .or_else(|| register(name, "output_double_register_").map(Self::OutputDouble))
-                    .or_else(|| InputField::from_name(name).map(Self::Input));
+                    .or_else(|| InputField::from_name(name).map(Self::Input))
+                    .or_else(|| Constant::from_name(name).map(Self::Constant));
             }
         })
     }
@@ -63,15 +113,24 @@ impl OutputField {
             Self::Timestamp
             | Self::SpeedScaling
             | Self::TargetSpeedFraction
+            | Self::AnalogOutput(_)
             | Self::OutputDouble(_) => FieldType::Double,
-            Self::TargetQ | Self::TargetQd | Self::TargetQdd | Self::ActualQ | Self::ActualQd => {
-                FieldType::Vector6d
-            }
+            Self::TargetQ
+            | Self::TargetQd
+            | Self::TargetQdd
+            | Self::ActualQ
+            | Self::ActualQd
+            | Self::TargetTcpPose
+            | Self::TargetTcpSpeed
+            | Self::ActualTcpPose
+            | Self::ActualTcpSpeed => FieldType::Vector6d,
+            Self::DigitalOutputs => FieldType::Uint64,
             Self::RobotMode | Self::SafetyMode | Self::OutputInt(_) => FieldType::Int32,
             Self::RuntimeState | Self::RobotStatusBits | Self::SafetyStatusBits => {
                 FieldType::Uint32
             }
             Self::Input(field) => field.field_type(),
+            Self::Constant(constant) => constant.value().field_type(),
         }
     }
 }
@@ -81,14 +140,28 @@ impl InputField {
         register(name, "input_int_register_")
             .map(Self::Int)
             .or_else(|| register(name, "input_double_register_").map(Self::Double))
+            .or_else(|| bit(name).map(Self::Bit))
+            .or_else(|| {
+                let place = NAMED_INPUTS.iter().position(|(known, _)| *known == name);
+                place.map(Self::Named)
+            })
     }
 
     pub(super) fn field_type(self) -> FieldType {
         match self {
             Self::Int(_) => FieldType::Int32,
             Self::Double(_) => FieldType::Double,
+            Self::Bit(_) => FieldType::Bool,
+            Self::Named(place) => NAMED_INPUTS[place].1.field_type(),
         }
     }
+}
+
+/// The number of the bit register `name`, counted from 64.
+fn bit(name: &str) -> Option<usize> {
+    let number: u8 = name.strip_prefix("input_bit_register_")?.parse().ok()?;
+    let is_for_clients = BIT_REGISTERS.contains(&number);
+    is_for_clients.then(|| usize::from(number - BIT_REGISTERS.start))
 }
 
 /// The number of the register `name`, if it is one of this kind.
@@ -110,13 +183,17 @@ mod tests {
             ("input_int_register_-1", false),
             ("input_int_register_", false),
             ("input_double_register_36", true),
-            ("input_bit_register_64", false),
+            ("input_bit_register_63", false),
+            ("input_bit_register_64", true),
+            ("input_bit_register_127", true),
+            ("input_bit_register_128", false),
+            ("speed_slider_mask", true),
             ("target_q", false),
         ] {
             assert_eq!(InputField::from_name(name).is_some(), exists, "{name}");
         }
         assert!(OutputField::from_name("input_int_register_24").is_some());
         assert!(OutputField::from_name("output_double_register_47").is_some());
-        assert!(OutputField::from_name("joint_temperatures").is_none());
+        assert!(OutputField::from_name("joint_temperature").is_none());
     }
 }

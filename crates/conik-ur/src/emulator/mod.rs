@@ -8,26 +8,38 @@
 //! | `servo_program` | the servo program as a state machine |
 //! | `registers`, `fields` | general-purpose registers; fields by name |
 //! | `rtde`, `script_port` | the two protocols, without sockets |
+//! | `state_message`, `dashboard` | the primary, real-time and dashboard ports, without sockets |
+//! | `running`, `ur_rtde_program` | programs of other clients that are recognised |
+//! | `power`, `faults` | what the pendant switches; what can be brought about |
+//! | `kinematics`, `not_simulated` | where the tool is; fields that read the same for ever |
 //! | `world`, `outbox` | what the threads share |
 //! | `server`, `clock` | the threads |
 //!
 //! It does not interpret `URScript`: it recognises the servo program of this crate, to the letter,
-//! and refuses any other. Its servo, limits and stops are assumed; see [`conik_sim::servo`].
+//! and the control program of `ur-rtde` by its registers, and refuses any other. Its servo, limits and stops are assumed; see [`conik_sim::servo`].
 
 mod clock;
 mod config;
 mod controller;
+mod dashboard;
+pub mod faults;
 mod fields;
+mod kinematics;
+mod not_simulated;
 mod outbox;
 mod outputs;
+mod power;
 mod registers;
 mod rtde;
+mod running;
 mod script_port;
 mod server;
 mod servo_program;
+mod state_message;
+mod ur_rtde_program;
 mod world;
 
-pub use config::{EmulatorConfig, EmulatorError, Injection, Pace, Ports, Series};
+pub use config::{EmulatorConfig, EmulatorError, Fault, Injection, Pace, Ports, Series};
 
 use crate::driver::UrConfig;
 use crate::driver::config::{RTDE_PORT, SCRIPT_PORT};
@@ -36,19 +48,32 @@ use crate::wire::Value;
 use conik::JointVec;
 use controller::Controller;
 use fields::OutputField;
+use server::Service;
 use std::net::IpAddr;
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::thread::{self, JoinHandle};
 use std::time::Duration;
 use world::{Shared, World};
 
+/// Every port of a controller. The secondary port comes before the primary one, whose protocol it
+/// shares.
+const SERVICES: [(Service, u16); 8] = [
+    (Service::Rtde, RTDE_PORT),
+    (Service::State, SCRIPT_PORT),
+    (Service::State, 30_001),
+    (Service::RealTime, 30_003),
+    (Service::Dashboard, 29_999),
+    (Service::StateReadOnly, 30_011),
+    (Service::StateReadOnly, 30_012),
+    (Service::RealTimeReadOnly, 30_013),
+];
+
 /// A running emulator. It ends, with all its threads and connections, when it is dropped.
 #[derive(Debug)]
 pub struct Emulator {
     config: EmulatorConfig,
     shared: Arc<Shared>,
-    rtde_port: u16,
-    script_port: u16,
+    ports: Vec<(Service, u16)>,
     threads: Vec<JoinHandle<()>>,
 }
 
@@ -68,8 +93,13 @@ impl Emulator {
                 need: "small enough that no port exceeds 65535",
             }),
         };
-        let (rtde, rtde_port) = server::listen(config.listen, port(RTDE_PORT)?)?;
-        let (script, script_port) = server::listen(config.listen, port(SCRIPT_PORT)?)?;
+        let mut listeners = Vec::new();
+        let mut ports = Vec::new();
+        for (service, number) in SERVICES {
+            let (listener, number) = server::listen(config.listen, port(number)?)?;
+            listeners.push((service, listener));
+            ports.push((service, number));
+        }
         let shared = Arc::new(Shared {
             world: Mutex::new(World::new(Controller::new(&config)?)),
             changed: Condvar::new(),
@@ -79,16 +109,15 @@ impl Emulator {
         });
         // From here on a failure drops the emulator, which ends the threads started so far.
         let mut emulator = Self {
-            rtde_port,
-            script_port,
+            ports,
             config,
             shared,
             threads: Vec::new(),
         };
-        let thread = server::serve_rtde(&emulator.shared, rtde)?;
-        emulator.threads.push(thread);
-        let thread = server::serve_scripts(&emulator.shared, script)?;
-        emulator.threads.push(thread);
+        for (service, listener) in listeners {
+            let thread = server::serve(&emulator.shared, listener, service)?;
+            emulator.threads.push(thread);
+        }
         let shared = Arc::clone(&emulator.shared);
         let thread = thread::Builder::new()
             .name("emulator clock".to_owned())
@@ -105,12 +134,29 @@ impl Emulator {
 
     /// The port that speaks RTDE.
     pub fn rtde_port(&self) -> u16 {
-        self.rtde_port
+        self.port(Service::Rtde)
     }
 
-    /// The port that takes programs.
+    /// The secondary port: takes programs and sends the state.
     pub fn script_port(&self) -> u16 {
-        self.script_port
+        self.port(Service::State)
+    }
+
+    /// The port that sends the state in every cycle, and takes programs.
+    pub fn real_time_port(&self) -> u16 {
+        self.port(Service::RealTime)
+    }
+
+    /// The port of the dashboard.
+    pub fn dashboard_port(&self) -> u16 {
+        self.port(Service::Dashboard)
+    }
+
+    /// The first port of this service; every service has one.
+    fn port(&self, service: Service) -> u16 {
+        let mut ports = self.ports.iter();
+        let found = ports.find(|(known, _)| *known == service);
+        found.map_or(0, |(_, port)| *port)
     }
 
     /// Settings of a driver for this emulator: its ports, rate, pace and name.
@@ -123,8 +169,8 @@ impl Emulator {
             one => one.to_string(),
         };
         UrConfig {
-            rtde_port: self.rtde_port,
-            script_port: self.script_port,
+            rtde_port: self.rtde_port(),
+            script_port: self.script_port(),
             name: Some(self.config.name.clone()),
             controller_rate_hz: Some(self.config.rate_hz),
             real_time: self.config.pace == Pace::WallTime,
@@ -142,6 +188,12 @@ impl Emulator {
     /// Lets something happen to the controller.
     pub fn inject(&self, injection: Injection) {
         lock(&self.shared.world).controller.inject(injection);
+    }
+
+    /// Brings a fault about.
+    pub fn strike(&self, fault: Fault) {
+        lock(&self.shared.world).strike(fault);
+        self.shared.changed.notify_all();
     }
 
     /// Where the controller commands the joints at present [rad].

@@ -5,6 +5,7 @@
 
 use super::lock;
 use std::collections::VecDeque;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Condvar, Mutex, PoisonError};
 
 /// Answers that may wait; a client that asks on and on without reading is cut off.
@@ -14,12 +15,15 @@ const MOST_ANSWERS: usize = 256;
 pub(super) struct Outbox {
     waiting: Mutex<Waiting>,
     changed: Condvar,
+    /// Whether to write one byte at a time.
+    one_byte: AtomicBool,
 }
 
 #[derive(Debug, Default)]
 struct Waiting {
     answers: VecDeque<Vec<u8>>,
     newest: Option<Vec<u8>>,
+    is_finishing: bool,
     is_closed: bool,
 }
 
@@ -38,6 +42,30 @@ impl Outbox {
         self.changed.notify_all();
     }
 
+    /// The most bytes to write in one go.
+    pub(super) fn portion(&self) -> usize {
+        if self.one_byte.load(Ordering::Relaxed) {
+            1
+        } else {
+            usize::MAX
+        }
+    }
+
+    /// Whether to write one byte at a time.
+    pub(super) fn set_one_byte(&self, on: bool) {
+        self.one_byte.store(on, Ordering::Relaxed);
+    }
+
+    pub(super) fn is_closed(&self) -> bool {
+        lock(&self.waiting).is_closed
+    }
+
+    /// Ends it once all answers are written.
+    pub(super) fn finish(&self) {
+        lock(&self.waiting).is_finishing = true;
+        self.changed.notify_all();
+    }
+
     /// Ends it; what waits is not written any more.
     pub(super) fn close(&self) {
         lock(&self.waiting).is_closed = true;
@@ -53,6 +81,10 @@ impl Outbox {
             }
             if let Some(bytes) = waiting.answers.pop_front() {
                 return Some(bytes);
+            }
+            if waiting.is_finishing {
+                waiting.is_closed = true;
+                return None;
             }
             if let Some(bytes) = waiting.newest.take() {
                 return Some(bytes);

@@ -2,11 +2,10 @@
 
 use super::controller::{Controller, Safety, six};
 use super::fields::OutputField;
-use crate::status::{ROBOT_MODE_RUNNING, robot_bit, runtime_state, safety_bit};
+use super::kinematics;
+use super::power::Power;
+use crate::status::{robot_bit, safety_bit};
 use crate::wire::Value;
-
-/// `robot_mode` of an arm without power.
-const ROBOT_MODE_POWER_OFF: i32 = 3;
 
 impl Controller {
     /// The present value of a field.
@@ -14,24 +13,24 @@ impl Controller {
         match field {
             OutputField::Timestamp => Value::Double(self.timestamp()),
             OutputField::TargetQ => Value::Vector6d(six(self.servo.q())),
-            OutputField::TargetQd => Value::Vector6d(six(self.servo.qd())),
+            OutputField::TargetQd => Value::Vector6d(self.target_qd()),
             OutputField::TargetQdd => Value::Vector6d(six(self.servo.qdd())),
             OutputField::ActualQ => Value::Vector6d(six(&self.actual.0)),
             OutputField::ActualQd => Value::Vector6d(six(&self.actual.1)),
-            OutputField::RobotMode => Value::Int32(match self.safety {
-                Safety::EmergencyStop => ROBOT_MODE_POWER_OFF,
-                Safety::Normal | Safety::ProtectiveStop => ROBOT_MODE_RUNNING,
-            }),
-            OutputField::SafetyMode => Value::Int32(match self.safety {
-                Safety::Normal => 1,
-                Safety::ProtectiveStop => 3,
-                Safety::EmergencyStop => 7,
-            }),
-            OutputField::RuntimeState => Value::Uint32(match (&self.running, self.paused) {
-                (None, _) => runtime_state::STOPPED,
-                (Some(_), false) => runtime_state::PLAYING,
-                (Some(_), true) => runtime_state::PAUSED,
-            }),
+            OutputField::TargetTcpPose => Value::Vector6d(kinematics::pose(&six(self.servo.q()))),
+            OutputField::TargetTcpSpeed => {
+                Value::Vector6d(kinematics::twist(&six(self.servo.q()), &self.target_qd()))
+            }
+            OutputField::ActualTcpPose => Value::Vector6d(kinematics::pose(&six(&self.actual.0))),
+            OutputField::ActualTcpSpeed => Value::Vector6d(kinematics::twist(
+                &six(&self.actual.0),
+                &six(&self.actual.1),
+            )),
+            OutputField::DigitalOutputs => Value::Uint64(self.digital_outputs()),
+            OutputField::AnalogOutput(index) => Value::Double(self.analog_output(index)),
+            OutputField::RobotMode => Value::Int32(self.robot_mode()),
+            OutputField::SafetyMode => Value::Int32(self.safety_mode()),
+            OutputField::RuntimeState => Value::Uint32(self.runtime_state()),
             OutputField::RobotStatusBits => Value::Uint32(self.robot_bits()),
             OutputField::SafetyStatusBits => Value::Uint32(match self.safety {
                 Safety::Normal => safety_bit::NORMAL,
@@ -44,18 +43,21 @@ impl Controller {
                         | safety_bit::STOPPED_DUE_TO_SAFETY
                 }
             }),
-            OutputField::SpeedScaling | OutputField::TargetSpeedFraction => Value::Double(1.0),
+            OutputField::SpeedScaling | OutputField::TargetSpeedFraction => {
+                Value::Double(self.speed_scaling())
+            }
             OutputField::OutputInt(register) => Value::Int32(self.registers.output_int(register)),
             // No program that runs here writes one.
             OutputField::OutputDouble(_) => Value::Double(0.0),
             OutputField::Input(field) => self.registers.input(field),
+            OutputField::Constant(constant) => constant.value(),
         }
     }
 
     fn robot_bits(&self) -> u32 {
-        let power = match self.safety {
-            Safety::EmergencyStop => 0,
-            Safety::Normal | Safety::ProtectiveStop => robot_bit::POWER_ON,
+        let power = match self.power {
+            Power::Off => 0,
+            Power::Idle | Power::Running => robot_bit::POWER_ON,
         };
         match self.running {
             Some(_) => power | robot_bit::PROGRAM_RUNNING,

@@ -1,6 +1,6 @@
 //! The emulated controller's general-purpose registers.
 
-use super::fields::InputField;
+use super::fields::{InputField, NAMED_INPUTS};
 use crate::registers::REGISTER_COUNT;
 use crate::wire::Value;
 
@@ -11,6 +11,8 @@ const COUNT: usize = REGISTER_COUNT as usize;
 pub(super) struct Registers {
     input_int: [i32; COUNT],
     input_double: [f64; COUNT],
+    input_bit: [bool; 64],
+    named: [Value; NAMED_INPUTS.len()],
     output_int: [i32; COUNT],
     /// The cycle in which each integer input was last written, for the watchdog.
     written_at: [u64; COUNT],
@@ -21,6 +23,8 @@ impl Registers {
         Self {
             input_int: [0; COUNT],
             input_double: [0.0; COUNT],
+            input_bit: [false; 64],
+            named: NAMED_INPUTS.map(|(_, value)| value),
             output_int: [0; COUNT],
             written_at: [0; COUNT],
         }
@@ -37,6 +41,8 @@ impl Registers {
             (InputField::Double(register), Value::Double(value)) => {
                 self.input_double[register] = value;
             }
+            (InputField::Bit(register), Value::Bool(value)) => self.input_bit[register] = value,
+            (InputField::Named(place), value) => self.named[place] = value,
             // A package is decoded with its recipe's types, so no other pair occurs.
             _ => {}
         }
@@ -46,7 +52,14 @@ impl Registers {
         match field {
             InputField::Int(register) => Value::Int32(self.input_int[register]),
             InputField::Double(register) => Value::Double(self.input_double[register]),
+            InputField::Bit(register) => Value::Bool(self.input_bit[register]),
+            InputField::Named(place) => self.named[place],
         }
+    }
+
+    /// The present value of an input that is no register.
+    pub(super) fn named(&self, place: usize) -> Value {
+        self.named[place]
     }
 
     pub(super) fn input_int(&self, register: u8) -> i32 {

@@ -9,7 +9,7 @@ use crate::wire::recipe::MAX_NAMES_SIZE;
 use crate::wire::value::{decode, encode};
 use crate::wire::{
     ControllerVersion, FieldReply, FieldType, Frame, PROTOCOL_VERSION, Reply, Request, TextLevel,
-    TextMessage, Value,
+    TextMessage, Value, WireError,
 };
 use std::collections::BTreeMap;
 
@@ -55,6 +55,12 @@ impl From<Reply> for Outcome {
 /// The number of the one output recipe of a connection.
 const OUTPUT_RECIPE: u8 = 1;
 
+/// The type of a package that lists outputs.
+const OUTPUTS_KIND: u8 = b'O';
+
+/// How often version 1 sends outputs [Hz].
+const VERSION_1_HZ: f64 = 125.0;
+
 /// The number given to a recipe that cannot be used.
 const NO_RECIPE: u8 = 0;
 
@@ -67,6 +73,11 @@ impl RtdeClient {
             inputs: Vec::new(),
             is_started: false,
         }
+    }
+
+    /// Whether this client has asked for outputs to begin.
+    pub(super) fn is_started(&self) -> bool {
+        self.is_started
     }
 
     /// Whether this client both receives outputs and writes inputs.
@@ -90,11 +101,30 @@ impl RtdeClient {
             .map(|field| controller.output(*field))
             .collect();
         let values = encode(&self.outputs.types, &values).ok()?;
-        let reply = Reply::Data {
+        self.to_bytes(&Reply::Data {
             recipe: OUTPUT_RECIPE,
             values,
-        };
-        reply.to_frame().ok()?.to_bytes().ok()
+        })
+    }
+
+    /// A reply as this client's version of the protocol writes it. Replies are built from short
+    /// texts and lists, so that they always fit a package.
+    pub(super) fn to_bytes(&self, reply: &Reply) -> Option<Vec<u8>> {
+        let mut frame = reply.to_frame().ok()?;
+        if !self.speaks_version_2 {
+            match reply {
+                Reply::Data { .. } | Reply::Outputs { .. } => {
+                    frame.payload.remove(0);
+                }
+                // The level first, and no source.
+                Reply::Text(message) => {
+                    let level = frame.payload.pop().into_iter();
+                    frame.payload = level.chain(message.text.bytes()).collect();
+                }
+                _ => {}
+            }
+        }
+        frame.to_bytes().ok()
     }
 
     /// Acts on one package of this client.
@@ -106,20 +136,21 @@ impl RtdeClient {
         controller: &mut Controller,
         claims: &mut Claims,
     ) -> Outcome {
-        let outcome = Request::from_frame(frame)
+        let outcome = self
+            .request(frame)
             .map_err(|error| error.to_string())
             .and_then(|request| match request {
                 Request::ProtocolVersion(asked) => {
-                    self.speaks_version_2 = asked == PROTOCOL_VERSION;
-                    Ok(Reply::ProtocolVersion(self.speaks_version_2).into())
+                    let is_known = (1..=PROTOCOL_VERSION).contains(&asked);
+                    if is_known {
+                        self.speaks_version_2 = asked == PROTOCOL_VERSION;
+                    }
+                    Ok(Reply::ProtocolVersion(is_known).into())
                 }
                 Request::ControllerVersion => Ok(Reply::ControllerVersion(version).into()),
                 Request::Text(message) => {
                     controller.note(&format!("client {} says: {}", self.id, message.text));
                     Ok(Outcome::default())
-                }
-                _ if !self.speaks_version_2 => {
-                    Err("only protocol version 2 is emulated: request it first".to_owned())
                 }
                 Request::Outputs {
                     frequency_hz,
@@ -142,6 +173,16 @@ impl RtdeClient {
         })
     }
 
+    /// In version 1 a list of outputs has no frequency in front of it.
+    fn request(&self, frame: &Frame) -> Result<Request, WireError> {
+        if self.speaks_version_2 || frame.kind != OUTPUTS_KIND {
+            return Request::from_frame(frame);
+        }
+        let payload = [&VERSION_1_HZ.to_be_bytes()[..], &frame.payload].concat();
+        let kind = frame.kind;
+        Request::from_frame(&Frame { kind, payload })
+    }
+
     fn set_up_outputs(
         &mut self,
         frequency_hz: f64,
@@ -149,6 +190,11 @@ impl RtdeClient {
         rate_hz: f64,
     ) -> Result<Outcome, String> {
         check_names(names)?;
+        let frequency_hz = if self.speaks_version_2 {
+            frequency_hz
+        } else {
+            frequency_hz.min(rate_hz)
+        };
         if !(1.0..=rate_hz).contains(&frequency_hz) {
             return Err(format!(
                 "output frequency {frequency_hz} Hz; 1 to {rate_hz} Hz are possible"

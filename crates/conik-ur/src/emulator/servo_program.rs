@@ -12,6 +12,12 @@ pub(super) enum Motion {
     Rest,
     /// `servoj` with this target [rad].
     Servo([f64; JOINTS]),
+    /// `servoj` with its parameters given anew: target [rad], lookahead [s] and gain.
+    ServoWith {
+        target: [f64; JOINTS],
+        lookahead_s: f64,
+        gain: f64,
+    },
     /// `stopj` with this deceleration [rad/s²].
     Brake(f64),
 }

@@ -1,18 +1,26 @@
 //! What all threads of the emulator share: the controller, its clients, and the wish to end.
 
-use super::config::Pace;
+use super::config::{Fault, Pace};
 use super::controller::Controller;
+use super::faults::Network;
+use super::fields::InputField;
 use super::outbox::Outbox;
 use super::rtde::{Claims, RtdeClient};
 use super::{lock, script_port};
 use crate::wire::{ControllerVersion, Frame, Reply, TextLevel, TextMessage};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, VecDeque};
 use std::net::{Shutdown, TcpStream};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
 /// Connections at a time; a real controller takes fewer.
-const MOST_CONNECTIONS: usize = 64;
+const MOST_CONNECTIONS: usize = 256;
+
+/// How often the primary and secondary ports send the state [Hz].
+const STATE_HZ: f64 = 10.0;
+
+/// Who writes an input that a fieldbus has claimed; clients are numbered from 1.
+const FIELDBUS: u64 = 0;
 
 /// Shared by all threads.
 #[derive(Debug)]
@@ -31,6 +39,9 @@ pub(super) struct World {
     pub(super) controller: Controller,
     clients: BTreeMap<u64, Client>,
     claims: Claims,
+    listeners: BTreeMap<u64, Listener>,
+    network: Network,
+    one_byte: bool,
     /// Every open connection, so that all can be woken at the end.
     connections: BTreeMap<u64, TcpStream>,
     next_id: u64,
@@ -44,10 +55,29 @@ pub(super) struct World {
 struct Client {
     rtde: RtdeClient,
     outbox: Arc<Outbox>,
+    /// Packages under way, each with the cycle in which it goes out.
+    under_way: VecDeque<(u64, Vec<u8>)>,
+    /// The connection is half open: it neither hears nor is heard.
+    is_silent: bool,
     /// In lockstep: it was sent a package and has not answered yet.
     owes_an_answer: bool,
     /// In lockstep: its program has ended, so it is not waited for any more.
     is_done: bool,
+}
+
+/// A client of another port.
+#[derive(Debug)]
+struct Listener {
+    outbox: Arc<Outbox>,
+    hears: Hears,
+}
+
+/// What a port sends without being asked.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Hears {
+    Nothing,
+    State,
+    RealTime,
 }
 
 impl World {
@@ -56,6 +86,9 @@ impl World {
             controller,
             clients: BTreeMap::new(),
             claims: Claims::new(),
+            listeners: BTreeMap::new(),
+            network: Network::good(),
+            one_byte: false,
             connections: BTreeMap::new(),
             next_id: 1,
             program_ran: false,
@@ -81,10 +114,12 @@ impl World {
 
     /// Makes an admitted connection an RTDE client.
     pub(super) fn add_client(&mut self, id: u64) -> Arc<Outbox> {
-        let outbox = Arc::new(Outbox::default());
+        let outbox = self.new_outbox();
         let client = Client {
             rtde: RtdeClient::new(id),
             outbox: Arc::clone(&outbox),
+            under_way: VecDeque::new(),
+            is_silent: false,
             owes_an_answer: false,
             is_done: false,
         };
@@ -93,9 +128,100 @@ impl World {
         outbox
     }
 
+    fn new_outbox(&self) -> Arc<Outbox> {
+        let outbox = Outbox::default();
+        outbox.set_one_byte(self.one_byte);
+        Arc::new(outbox)
+    }
+
+    /// Makes an admitted connection one that hears this.
+    pub(super) fn add_listener(&mut self, id: u64, hears: Hears) -> Arc<Outbox> {
+        let outbox = self.new_outbox();
+        let listener = Listener {
+            outbox: Arc::clone(&outbox),
+            hears,
+        };
+        self.listeners.insert(id, listener);
+        outbox
+    }
+
+    /// Brings a fault about.
+    pub(super) fn strike(&mut self, fault: Fault) {
+        let cycles = |seconds: f64| {
+            #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)] // Saturates.
+            let cycles = (seconds.max(0.0) * self.controller.rate_hz).round() as u64;
+            cycles
+        };
+        let line = format!("fault: {fault:?}");
+        match fault {
+            Fault::Event(injection) => self.controller.inject(injection),
+            Fault::ClockJump(seconds) => self.controller.clock_jump_s += seconds,
+            Fault::Drop(probability) => self.network.drop = probability,
+            Fault::Delay(seconds) => self.network.delay = cycles(seconds),
+            Fault::Jitter(seconds) => self.network.jitter = cycles(seconds),
+            Fault::Freeze(seconds) => {
+                self.network.frozen_until =
+                    self.controller.cycles().saturating_add(cycles(seconds));
+            }
+            Fault::Reset => {
+                for id in self.clients.keys() {
+                    if let Some(stream) = self.connections.get(id) {
+                        // One that is shut already is what we want.
+                        let _ = stream.shutdown(Shutdown::Both);
+                    }
+                }
+            }
+            Fault::HalfOpen => {
+                for client in self.clients.values_mut() {
+                    client.is_silent = true;
+                    client.owes_an_answer = false;
+                }
+            }
+            Fault::RegisterInUse(name) => match InputField::from_name(&name) {
+                Some(field) => {
+                    self.claims.insert(field, FIELDBUS);
+                }
+                None => self.controller.note(&format!("there is no input '{name}'")),
+            },
+            Fault::BadPackages(count) => self.network.bad_packages = count,
+            Fault::OneByte(on) => {
+                self.one_byte = on;
+                let clients = self.clients.values().map(|client| &client.outbox);
+                let listeners = self.listeners.values().map(|listener| &listener.outbox);
+                clients
+                    .chain(listeners)
+                    .for_each(|outbox| outbox.set_one_byte(on));
+            }
+        }
+        self.controller.note(&line);
+    }
+
+    /// Offers the state to those who hear it.
+    fn tell_listeners(&self) {
+        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)] // Saturates, at least 1.
+        let every = (self.controller.rate_hz / STATE_HZ).round().max(1.0) as u64;
+        let state_is_due = self.controller.cycles().is_multiple_of(every);
+        let (mut state, mut real_time) = (None, None);
+        for listener in self.listeners.values() {
+            let package = match listener.hears {
+                Hears::State if state_is_due => {
+                    state.get_or_insert_with(|| self.controller.state_message())
+                }
+                Hears::RealTime => {
+                    real_time.get_or_insert_with(|| self.controller.real_time_package())
+                }
+                Hears::State | Hears::Nothing => continue,
+            };
+            listener.outbox.offer(package.clone());
+        }
+    }
+
     /// Forgets a connection and frees the inputs that it wrote.
     pub(super) fn remove(&mut self, id: u64) {
         self.connections.remove(&id);
+        if let Some(listener) = self.listeners.remove(&id) {
+            listener.outbox.close();
+        }
         if let Some(client) = self.clients.remove(&id) {
             client.outbox.close();
             self.claims.retain(|_, owner| *owner != id);
@@ -114,6 +240,9 @@ impl World {
         for client in self.clients.values() {
             client.outbox.close();
         }
+        for listener in self.listeners.values() {
+            listener.outbox.close();
+        }
         for stream in self.connections.values() {
             // One that is shut already is what we want.
             let _ = stream.shutdown(Shutdown::Both);
@@ -126,10 +255,27 @@ impl World {
         let runs = self.controller.program_runs();
         let ended = self.program_ran && !runs;
         self.program_ran = runs;
+        self.tell_listeners();
         let partner = self.partner().filter(|_| pace == Pace::Lockstep);
         for (id, client) in &mut self.clients {
-            if client.rtde.is_due(self.controller.cycles())
-                && let Some(package) = client.rtde.package(&self.controller)
+            let cycle = self.controller.cycles();
+            if client.is_silent {
+                continue;
+            }
+            if client.rtde.is_due(cycle)
+                && let Some(departure) = self.network.departure(cycle)
+                && let Some(mut package) = client.rtde.package(&self.controller)
+            {
+                self.network.spoil(&mut package);
+                // One stream keeps its order, however long each package waits.
+                let last = client.under_way.back().map_or(0, |(last, _)| *last);
+                client.under_way.push_back((departure.max(last), package));
+            }
+            while client
+                .under_way
+                .front()
+                .is_some_and(|(departure, _)| *departure <= cycle)
+                && let Some((_, package)) = client.under_way.pop_front()
             {
                 client.outbox.offer(package);
                 client.owes_an_answer = partner == Some(*id) && !ended;
@@ -142,7 +288,9 @@ impl World {
     pub(super) fn partner(&self) -> Option<u64> {
         let mut candidates = self.clients.iter();
         candidates
-            .find(|(_, client)| client.rtde.is_in_the_loop() && !client.is_done)
+            .find(|(_, client)| {
+                client.rtde.is_in_the_loop() && !client.is_done && !client.is_silent
+            })
             .map(|(id, _)| *id)
     }
 
@@ -167,6 +315,9 @@ impl Shared {
         let Some(client) = world.clients.get_mut(&id) else {
             return;
         };
+        if client.is_silent {
+            return;
+        }
         let outcome = client.rtde.handle(
             frame,
             self.version,
@@ -175,7 +326,7 @@ impl Shared {
             &mut world.claims,
         );
         if let Some(reply) = outcome.reply {
-            send(&client.outbox, &reply);
+            client.answer(&reply);
         }
         if outcome.wrote_inputs {
             client.owes_an_answer = false;
@@ -186,13 +337,18 @@ impl Shared {
     /// Acts on a program of a client of the script port.
     pub(super) fn run_script(&self, text: &str) {
         let world = &mut *lock(&self.world);
+        if run_command(&mut world.controller, text.trim()) {
+            return;
+        }
         if let Err(fault) = world.controller.upload(text) {
             let name = script_port::name_of(text);
             let line = format!("program '{name}' refused: {fault}");
             world.controller.note(&line);
             let reply = Reply::Text(TextMessage::new(TextLevel::Error, "emulator", &line));
-            for client in world.clients.values() {
-                send(&client.outbox, &reply);
+            // One that has not begun to listen has no version of the protocol yet.
+            let listening = |client: &&Client| client.rtde.is_started() && !client.is_silent;
+            for client in world.clients.values().filter(listening) {
+                client.answer(&reply);
             }
         }
     }
@@ -210,9 +366,35 @@ impl Shared {
     }
 }
 
-fn send(outbox: &Outbox, reply: &Reply) {
-    // Replies are built here from short texts and lists, so that they always fit a package.
-    if let Ok(bytes) = reply.to_frame().and_then(|frame| frame.to_bytes()) {
-        outbox.answer(bytes);
+impl Client {
+    fn answer(&self, reply: &Reply) {
+        if let Some(bytes) = self.rtde.to_bytes(reply) {
+            self.outbox.answer(bytes);
+        }
     }
+}
+
+/// The short commands that the primary port takes beside programs.
+fn run_command(controller: &mut Controller, line: &str) -> bool {
+    match line {
+        "power on" => {
+            controller.power_on();
+        }
+        "power off" => controller.power_off(),
+        "set robotmode run" => {
+            controller.release_brakes();
+        }
+        "set unlock protective stop" => {
+            if let Err(left) = controller.unlock_protective_stop() {
+                controller.note(&format!("unlock refused for {left:.1} s more"));
+            }
+        }
+        "stop program" => {
+            if controller.program_runs() {
+                controller.end_program("program stopped from the network");
+            }
+        }
+        _ => return false,
+    }
+    true
 }

@@ -89,7 +89,9 @@ impl Damped {
     /// Whether every singular value of the rows is at least ε, so that nothing is damped.
     pub(crate) fn is_regular(&mut self, rows: &[f64]) -> bool {
         self.fill_gram(rows, -SINGULAR * SINGULAR);
-        factor(&mut self.gram, self.count)
+        let is_regular = factor(&mut self.gram, self.count);
+        self.lost = usize::from(!is_regular);
+        is_regular
     }
 
     /// If no direction of the rows needs damping, x += Aᵀ w with w = (A Aᵀ + l₀² I)⁻¹ g, and w.
@@ -158,7 +160,8 @@ impl Damped {
         }
     }
 
-    /// How many directions of the rows had a singular value below ε when they were last looked at.
+    /// How many directions of the rows had a singular value below ε when they were last looked at; 1 if
+    /// it was only asked whether there are any.
     pub(crate) fn lost(&self) -> usize {
         self.lost
     }

@@ -274,7 +274,8 @@ impl LevelProgram {
             .damping
             .or_else(Damping::of_cone(Recursion::Chiaverini));
         let is_fixed = matches!(damping, Damping::Fixed(_));
-        if damping == Damping::None || (!is_fixed && self.damped.is_regular(&self.rows)) {
+        let is_regular = self.damped.is_regular(&self.rows);
+        if damping == Damping::None || (is_regular && !is_fixed) {
             self.minimum_norm.solve(&self.rows, &self.gap, motion);
         } else {
             let variable = self.period * sqrt(dot(&self.gap, &self.gap));

@@ -48,7 +48,7 @@ pub(crate) struct Nearest {
     /// What the levels above the present one have claimed.
     above: Claims,
     asked: Asked,
-    /// r: what the last level asked for and did not get.
+    /// r: what the last level asked for and did not get, for the levels below it.
     unmet: Vec<f64>,
     returning: Vec<usize>,
     tremor: Tremor,
@@ -156,11 +156,16 @@ impl Nearest {
             solution = self.solve(tick, place, velocity);
         }
         if solution == Solution::Optimal {
-            self.tremor
-                .observe(place, velocity, self.program.velocity());
+            if place > 0 {
+                self.tremor
+                    .observe(place, velocity, self.program.velocity());
+            }
             velocity.copy_from_slice(self.program.velocity());
             self.remember(place, &tick.barrier.sides);
             self.lost[place] = self.program.lost();
+        }
+        if place + 1 == self.lower.len() {
+            return;
         }
         let jacobian = tick.evaluation.known_jacobian(self.lower[place]);
         let met = jacobian
