@@ -53,6 +53,7 @@ pub enum Command {
     after_help = "Exit status: 0 done; 1 the run ended in a fault, or a guarantee that the \
     settings promise was broken; 2 bad usage or bad input; 130 stopped with Ctrl-C."
 )]
+#[allow(clippy::struct_excessive_bools)] // Each is a switch of its own.
 pub struct RunArguments {
     /// The scenario file
     #[arg(value_hint = ValueHint::FilePath)]

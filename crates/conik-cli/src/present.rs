@@ -296,6 +296,12 @@ fn machine(summary: &Summary) -> String {
             .max_by(|a, b| a.1.total_cmp(&b.1))
             .unwrap_or((0, 0.0));
         let rms = tracking.rms_rad.get(joint).copied().unwrap_or(0.0);
+        if let Some(delay_s) = tracking.delay_s {
+            text += &format!(
+                "  the arm ran {:.1} ms behind its reference\n",
+                1e3 * delay_s
+            );
+        }
         text += &format!(
             "  the arm followed within {} (joint {}, root mean square {})\n  {} without a reference\n",
             quantity(max, "rad"),

@@ -20,5 +20,6 @@ pub mod record;
 pub mod run;
 pub mod scenario;
 pub mod servo;
+mod servo_delay;
 pub mod summarise;
 pub mod summary;

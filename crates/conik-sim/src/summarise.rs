@@ -9,6 +9,7 @@ use crate::monitors::Monitors;
 use crate::record::Record;
 use crate::run::Ended;
 use crate::scenario::Border;
+use crate::servo_delay::ServoDelay;
 use crate::summary::{
     FORMAT, Landing, ModeChange, Outcome, Properties, Property, Settings, StepTime, StepWork,
     Summary, TaskSummary, Tracking,
@@ -45,6 +46,7 @@ struct TrackingSum {
     max: JointVec,
     squares: JointVec,
     ticks: u64,
+    delay: ServoDelay,
 }
 
 impl Summariser {
@@ -102,6 +104,7 @@ impl Summariser {
                     max: still,
                     squares: still,
                     ticks: 0,
+                    delay: ServoDelay::default(),
                 })
                 .add(&record.q, &measured);
         }
@@ -177,7 +180,7 @@ impl Summariser {
             final_q_rad: final_q.to_vec(),
             step_time_us: step_time(self.step_ns),
             deadline_misses: self.deadline_misses,
-            tracking: self.tracking.map(TrackingSum::finish),
+            tracking: self.tracking.map(|sum| sum.finish(experiment.period_s())),
             speed_limited_ticks: self.speed_limited_ticks,
             no_mode_ticks: self.no_mode_ticks,
             landing: lands.then_some(self.landing),
@@ -210,9 +213,10 @@ impl TrackingSum {
             self.squares[i] += error * error;
         }
         self.ticks += 1;
+        self.delay.add(reference, measured);
     }
 
-    fn finish(self) -> Tracking {
+    fn finish(self, period_s: f64) -> Tracking {
         let ticks = self.ticks as f64;
         Tracking {
             max_rad: self.max.to_vec(),
@@ -221,6 +225,7 @@ impl TrackingSum {
                 .iter()
                 .map(|sum| (sum / ticks).sqrt())
                 .collect(),
+            delay_s: self.delay.ticks().map(|ticks| ticks * period_s),
         }
     }
 }

@@ -191,4 +191,8 @@ pub struct Tracking {
     pub max_rad: Vec<f64>,
     /// Root mean square of q_measured − q_ref of each joint [rad].
     pub rms_rad: Vec<f64>,
+    /// How far the arm ran behind its reference [s]: the lag at which both agree best; `None` where
+    /// it moved too little or too short to tell.
+    #[serde(default)]
+    pub delay_s: Option<f64>,
 }

@@ -196,7 +196,13 @@ fn tracking(run: &Run, summary: &Summary) -> String {
         ("Largest tracking error", true),
         ("Root mean square", true),
     ];
-    table(&columns, &body)
+    let delay = tracking.delay_s.map_or(String::new(), |delay_s| {
+        format!(
+            "<p>The arm ran {:.1} ms behind its reference: at this lag the two agree best.</p>\n",
+            1e3 * delay_s
+        )
+    });
+    delay + &table(&columns, &body)
 }
 
 fn time(t_s: Option<f64>) -> String {

@@ -338,6 +338,7 @@ impl Invention {
             tracking: Some(Tracking {
                 max_rad: vec![3e-4; self.joints],
                 rms_rad: vec![1e-4; self.joints],
+                delay_s: Some(0.1042),
             }),
             speed_limited_ticks: 0,
             no_mode_ticks: 0,
