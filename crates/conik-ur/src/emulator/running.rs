@@ -6,7 +6,6 @@ use super::ur_rtde_program::UrRtdeProgram;
 
 /// A program while it runs.
 #[derive(Clone, Debug)]
-#[allow(clippy::large_enum_variant)] // There is one at a time.
 pub(super) enum Running {
     Servo(Box<RunningProgram>),
     UrRtde(UrRtdeProgram),
