@@ -134,4 +134,19 @@ mod tests {
         let sent = sent.count();
         assert!((2900..3100).contains(&sent), "{sent}");
     }
+
+    #[test]
+    fn packages_wait_for_the_delay_and_at_most_for_the_jitter_on_top() {
+        let mut network = Network {
+            delay: 3,
+            jitter: 2,
+            ..Network::good()
+        };
+        let mut waits: Vec<u64> = (0..1000)
+            .filter_map(|cycle| network.departure(cycle).map(|departure| departure - cycle))
+            .collect();
+        waits.sort_unstable();
+        waits.dedup();
+        assert_eq!(waits, [3, 4, 5]);
+    }
 }
