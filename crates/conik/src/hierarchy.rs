@@ -111,6 +111,13 @@ impl Hierarchy {
         true
     }
 
+    /// J⁺ σ̇_ref of the one level below the sets, if there is just one and it is projected: the velocity
+    /// of every mode is then N of it. `None` before the first velocity of a tick.
+    pub(crate) fn asked_of_one_level(&self) -> Option<&[f64]> {
+        let is_one = self.recursion == Recursion::Chiaverini && self.lower.len() == 1;
+        (is_one && self.asked_known[0]).then_some(&self.asked[..])
+    }
+
     /// The lower levels that had lost directions in the last velocity, and how many.
     pub(crate) fn lost(&self) -> impl Iterator<Item = (TaskId, usize)> {
         let levels = self.lower.iter().copied().zip(self.lost.iter().copied());

@@ -37,6 +37,7 @@ use crate::cone::Interval;
 use crate::evaluation::Evaluation;
 use crate::hierarchy::Hierarchy;
 use crate::linalg::dot;
+use crate::real::sqrt;
 use crate::settings::{ModeRule, Settings};
 use crate::stack::Stack;
 use crate::task_id::TaskId;
@@ -44,6 +45,9 @@ use crate::task_id::TaskId;
 /// A task that changes slower than this [unit/s] counts as one that stands still: a frozen task
 /// moves at the level of rounding, and the test must not see it leave.
 const STILL: f64 = 1e-12;
+
+/// A task that leaves faster than this share of the velocity does so beyond doubt.
+const CLEARLY: f64 = 1e-9;
 
 #[derive(Debug)]
 pub(crate) struct ModeSearch {
@@ -207,6 +211,9 @@ impl ModeSearch {
         }
         for i in from..(self.candidates.len() + 1).saturating_sub(missing) {
             let task = self.candidates[i];
+            if self.is_first_look && self.is_clearly_refused(tick, task) {
+                continue;
+            }
             let frozen = self.hierarchy.frozen();
             if !self.extends_core(tick, task) {
                 continue;
@@ -218,6 +225,39 @@ impl ModeSearch {
                 return true;
             }
             self.core.remove(task);
+        }
+        false
+    }
+
+    /// Whether another set clearly leaves in the mode of this one alone, told without building the mode:
+    /// with one row a frozen and one level v below, J f = J v − (a v / a a) J a. Where rounding could
+    /// decide, the mode is built.
+    fn is_clearly_refused(&mut self, tick: &mut Tick<'_>, task: TaskId) -> bool {
+        let Some(asked) = self.hierarchy.asked_of_one_level() else {
+            return false;
+        };
+        let mut others = self.at_border.iter().filter(|(other, _)| *other != task);
+        if others.next().is_none() || !tick.borders.are_at_ease() {
+            return false;
+        }
+        tick.evaluation.jacobian(tick.stack, task);
+        let row = tick.evaluation.known_jacobian(task);
+        let share = dot(row, asked) / dot(row, row);
+        for &(other, allowed) in &self.at_border {
+            if other == task {
+                continue;
+            }
+            let other_row = tick.evaluation.jacobian(tick.stack, other);
+            let along = dot(other_row, asked);
+            let row = tick.evaluation.known_jacobian(task);
+            let rate = along - share * dot(tick.evaluation.known_jacobian(other), row);
+            let beyond = (allowed.min - rate).max(rate - allowed.max);
+            let is_clear = || beyond > CLEARLY * sqrt(1.0 + dot(asked, asked));
+            if beyond > 0.0 && is_clear() {
+                self.leaving[other.index()] = rate;
+                self.evaluated += 1;
+                return true;
+            }
         }
         false
     }
