@@ -163,6 +163,7 @@ fn speed(record: &Record, experiment: &Experiment) -> String {
             Reason::SpeedLimit(_)
                 | Reason::AccelerationLimit(_)
                 | Reason::Halved(_)
+                | Reason::Cautious(_)
                 | Reason::StandsStill
                 | Reason::NoMode
         )

@@ -57,6 +57,9 @@ pub struct Landed {
     pub corrections: usize,
     /// Halvings of the velocity.
     pub halvings: usize,
+    /// Share of the velocity that the tick set out with, because one before had to stand still; `None`:
+    /// all of it.
+    pub cautious: Option<f64>,
     /// Whether no velocity was found that lands, so that the arm stands still for this period.
     pub stood_still: bool,
     /// The set that will be furthest outside at the end of this period, because it, its bound or
@@ -149,6 +152,7 @@ impl Landing {
         let mut corrections = 0;
         if self.caution < 1.0 {
             is_shortened = true;
+            landed.cautious = Some(self.caution);
             shorten(qd, approach.anchor, self.caution);
         }
         loop {

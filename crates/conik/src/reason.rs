@@ -61,6 +61,8 @@ pub enum Reason {
     Corrected(usize),
     /// The velocity was halved so many times before it landed inside every set.
     Halved(usize),
+    /// The tick set out with this share of the velocity, because one before had to stand still.
+    Cautious(f64),
     /// No velocity was found that lands inside every set: the arm stands still for this period.
     StandsStill,
     /// A set that moves, or whose bound does, cannot be kept at the end of this period.
@@ -95,7 +97,7 @@ impl Reason {
     }
 
     /// A word for logs: `hold`, `hold-inside`, `free`, `rank`, `speed`, `acceleration`,
-    /// `acceleration-exceeded`, `corrected`, `halved`, `still`, `outside`, `no-mode`, `pivots`.
+    /// `acceleration-exceeded`, `corrected`, `halved`, `cautious`, `still`, `outside`, `no-mode`, `pivots`.
     pub const fn word(&self) -> &'static str {
         match self {
             Self::Holds { .. } => "hold",
@@ -107,6 +109,7 @@ impl Reason {
             Self::AccelerationExceeded(_) => "acceleration-exceeded",
             Self::Corrected(_) => "corrected",
             Self::Halved(_) => "halved",
+            Self::Cautious(_) => "cautious",
             Self::StandsStill => "still",
             Self::GoesOutside(_) => "outside",
             Self::NoMode => "no-mode",
@@ -237,6 +240,11 @@ impl fmt::Display for Words<'_> {
             Reason::Halved(times) => {
                 write!(f, "the velocity was halved {times} time{}, because corrections alone did not land inside every set", if times == 1 { "" } else { "s" })
             }
+            Reason::Cautious(share) => write!(
+                f,
+                "the velocity is shortened to {:.3} %, because a tick before had to stand still",
+                100.0 * share
+            ),
             Reason::StandsStill => f.write_str(
                 "the arm stands still for this period: no velocity was found that lands inside every set",
             ),

@@ -43,7 +43,7 @@ pub struct Step {
 }
 
 /// Kinds of reasons that are not about a task or a joint's acceleration.
-const REASONS_OF_THE_WHOLE: usize = 8;
+const REASONS_OF_THE_WHOLE: usize = 9;
 
 impl Step {
     pub(crate) fn at_rest(stack: &Stack) -> Self {
@@ -81,6 +81,7 @@ impl Step {
             self.acceleration_limit.map(Reason::AccelerationLimit),
             counted(landed.corrections, Reason::Corrected),
             counted(landed.halvings, Reason::Halved),
+            landed.cautious.map(Reason::Cautious),
             landed.stood_still.then_some(Reason::StandsStill),
             landed.outside.map(Reason::GoesOutside),
         ];

@@ -156,6 +156,54 @@ fn a_set_frozen_inside_is_told_from_one_on_its_border() {
     assert!((inside - (step.value(obstacle)[0] - 0.18)).abs() < 1e-12 && inside > 0.01);
 }
 
+/// In a narrow tube the arm has to stand still at times: what then slows it down is said.
+#[test]
+fn a_velocity_is_never_shortened_without_a_reason() {
+    let (mut still, mut cautious) = (0, 0);
+    for seed in 0..40_u32 {
+        let turn = f64::from(seed) * 0.37;
+        let q0 = [turn, -1.2 + 0.3 * turn.sin(), 1.1, 0.4 * turn, 1.2, 0.1];
+        let robot = Robot::builtin("ur5-paper").expect("built in");
+        let mut kinematics = conik::Kinematics::new(&robot);
+        kinematics.update(&q0);
+        let here = kinematics.base_from(conik::Frame::Tool).origin;
+        let mut stack = Stack::new(&robot);
+        // A tube much narrower than what the arm bends in a period of 1 s.
+        for (name, axis, value) in [
+            ("across", conik::Axis::Y, here.y),
+            ("up", conik::Axis::Z, here.z),
+        ] {
+            stack
+                .set(
+                    name,
+                    conik::Coordinate::of_tool(axis),
+                    value - 1e-6..=value + 1e-6,
+                )
+                .expect("sound");
+        }
+        let target = [here.x + 0.3, here.y, here.z];
+        stack
+            .equality("position", Position::of_tool(), &target, 1.0)
+            .expect("sound");
+        let settings = Settings {
+            rate_hz: 1.0,
+            ..by_default(Recursion::SicilianoSlotine)
+        };
+        let mut controller = Controller::new(&robot, stack, settings).expect("sound");
+        let mut q = conik::JointVec::from(q0);
+        for _ in 0..20 {
+            let step = controller.step(&q).expect("finite");
+            if let Some(share) = step.landed.cautious {
+                assert!(share < 1.0 && step.reasons().contains(&Reason::Cautious(share)));
+                cautious += 1;
+            }
+            still += u32::from(step.reasons().contains(&Reason::StandsStill));
+            q = step.q_ref;
+        }
+    }
+    assert!(still > 0 && cautious > 0, "{still} {cautious}");
+}
+
 #[test]
 fn reasons_read_well() {
     let mut example = Example::new(2, paper::thesis(), by_default(Recursion::SicilianoSlotine));

@@ -157,6 +157,7 @@ impl Observations {
             Reason::LetsGo { .. }
             | Reason::Corrected(_)
             | Reason::Halved(_)
+            | Reason::Cautious(_)
             | Reason::NoMode
             | Reason::OutOfPivots => {}
         }
