@@ -3,7 +3,7 @@
 use conik::JointVec;
 use conik_sim::servo::BadServoModel;
 use std::f64::consts::PI;
-use std::io;
+use std::io::{self, ErrorKind};
 use std::net::{IpAddr, Ipv4Addr};
 
 use crate::wire::ControllerVersion;
@@ -181,7 +181,7 @@ pub enum EmulatorError {
     #[error(transparent)]
     Servo(#[from] BadServoModel),
     /// No port could be opened.
-    #[error("port {port} of {address} cannot be opened: {cause}; another program may hold it")]
+    #[error("port {port} of {address} cannot be opened: {cause}{}", remedy(.cause))]
     Listen {
         /// The address.
         address: IpAddr,
@@ -193,4 +193,14 @@ pub enum EmulatorError {
     /// No thread could be started.
     #[error("a thread could not be started: {0}")]
     Thread(io::Error),
+}
+
+/// What may help when a port cannot be opened.
+fn remedy(cause: &io::Error) -> &'static str {
+    match cause.kind() {
+        ErrorKind::AddrInUse => "; another program holds it: end it, or take another port offset",
+        ErrorKind::AddrNotAvailable => "; listen on an address of this computer",
+        ErrorKind::PermissionDenied => "; ports below 1024 are for the system",
+        _ => "",
+    }
 }

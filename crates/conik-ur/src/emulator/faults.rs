@@ -1,6 +1,7 @@
 //! Faults that can be brought about: by a flag, or by `emulator FAULT` at the dashboard.
 
 use super::config::{Fault, Injection};
+use super::fields::InputField;
 
 /// Every fault, as it is asked for.
 pub const GRAMMAR: &str = "protective stop | emergency stop | program stop | pause | release | \
@@ -29,6 +30,11 @@ pub fn parse(line: &str) -> Result<Fault, String> {
         ["freeze", time] => Fault::Freeze(seconds(time, 1e6)?),
         ["reset"] => Fault::Reset,
         ["half-open"] => Fault::HalfOpen,
+        ["register", "in", "use", name] if InputField::from_name(name).is_none() => {
+            return Err(format!(
+                "there is no input '{name}'; there are input_int_register_0 to 47, for instance"
+            ));
+        }
         ["register", "in", "use", name] => Fault::RegisterInUse((*name).to_owned()),
         ["bad", "packages", count] => Fault::BadPackages(
             count
@@ -119,6 +125,8 @@ mod tests {
             "drop nan",
             "delay -1",
             "bad packages x",
+            "register in use output_int_register_0",
+            "register in use input_int_register_48",
         ] {
             assert!(parse(line).is_err(), "{line}");
         }

@@ -12,7 +12,8 @@
 //! | `running`, `ur_rtde_program` | programs of other clients that are recognised |
 //! | `power`, `faults` | what the pendant switches; what can be brought about |
 //! | `kinematics`, `not_simulated` | where the tool is; fields that read the same for ever |
-//! | `world`, `outbox` | what the threads share |
+//! | `inbound`, `outbox` | what comes in on a connection, and what goes out |
+//! | `world` | what the threads share |
 //! | `server`, `clock` | the threads |
 //!
 //! It does not interpret `URScript`: it recognises the servo program of this crate, to the letter,
@@ -24,6 +25,7 @@ mod controller;
 mod dashboard;
 pub mod faults;
 mod fields;
+mod inbound;
 mod kinematics;
 mod not_simulated;
 mod outbox;
@@ -48,7 +50,7 @@ use crate::wire::Value;
 use conik::JointVec;
 use controller::Controller;
 use fields::OutputField;
-use server::Service;
+use inbound::Service;
 use std::net::IpAddr;
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::thread::{self, JoinHandle};
@@ -150,6 +152,13 @@ impl Emulator {
     /// The port of the dashboard.
     pub fn dashboard_port(&self) -> u16 {
         self.port(Service::Dashboard)
+    }
+
+    /// The port that is open in the place of a controller's port `number`, 30004 for instance.
+    pub fn port_in_place_of(&self, number: u16) -> Option<u16> {
+        let mut places = SERVICES.iter().zip(&self.ports);
+        let place = places.find(|((_, known), _)| *known == number);
+        place.map(|(_, (_, port))| *port)
     }
 
     /// The first port of this service; every service has one.

@@ -56,8 +56,10 @@ impl Outbox {
         self.one_byte.store(on, Ordering::Relaxed);
     }
 
-    pub(super) fn is_closed(&self) -> bool {
-        lock(&self.waiting).is_closed
+    /// Whether nothing but what waits is written any more.
+    pub(super) fn is_ending(&self) -> bool {
+        let waiting = lock(&self.waiting);
+        waiting.is_closed || waiting.is_finishing
     }
 
     /// Ends it once all answers are written.

@@ -1,12 +1,19 @@
 //! The port that runs any program sent to it: cuts programs out of the bytes that come in.
 
+use std::ops::Range;
+
 /// The longest program taken; a real client's own is some 50 kB.
 const MOST_BYTES: usize = 1 << 20;
 
-/// Collects bytes and gives them back as programs.
+/// Collects bytes and gives them back as programs. No byte is looked at twice, however small the
+/// portions are.
 #[derive(Debug, Default)]
 pub(super) struct ScriptReader {
     bytes: Vec<u8>,
+    /// Where the line begins that is looked at; whole lines before it belong to an open block.
+    line: usize,
+    /// No line ends between there and here.
+    searched: usize,
 }
 
 /// A program longer than is taken.
@@ -25,40 +32,45 @@ impl ScriptReader {
 
     /// The next whole program: a `def` (or `sec`) up to the `end` at the margin, or a single line.
     pub(super) fn next_program(&mut self) -> Option<String> {
-        loop {
-            let first = self.line_end(0)?;
-            let line = String::from_utf8_lossy(&self.bytes[..first]).into_owned();
-            if line.trim().is_empty() {
-                self.bytes.drain(..first);
-                continue;
-            }
-            let is_block = line.starts_with("def ") || line.starts_with("sec ");
-            let end = if is_block {
-                self.block_end(first)?
+        while let Some(line) = self.next_line() {
+            let end = line.end;
+            let is_first = line.start == 0;
+            let line = &self.bytes[line];
+            let is_whole = if is_first {
+                if line.trim_ascii().is_empty() {
+                    self.take(end);
+                    continue;
+                }
+                !(line.starts_with(b"def ") || line.starts_with(b"sec "))
             } else {
-                first
+                line.trim_ascii_end() == b"end"
             };
-            let program = String::from_utf8_lossy(&self.bytes[..end]).into_owned();
-            self.bytes.drain(..end);
-            return Some(program);
-        }
-    }
-
-    /// Where the line that holds `from` ends, its line break included.
-    fn line_end(&self, from: usize) -> Option<usize> {
-        let length = self.bytes[from..].iter().position(|byte| *byte == b'\n')?;
-        Some(from + length + 1)
-    }
-
-    /// Where the block ends whose first line ends at `from`.
-    fn block_end(&self, mut from: usize) -> Option<usize> {
-        loop {
-            let end = self.line_end(from)?;
-            if self.bytes[from..end].trim_ascii_end() == b"end" {
-                return Some(end);
+            if is_whole {
+                return Some(self.take(end));
             }
-            from = end;
         }
+        None
+    }
+
+    /// The next whole line, its line break included.
+    fn next_line(&mut self) -> Option<Range<usize>> {
+        let mut rest = self.bytes[self.searched..].iter();
+        let Some(length) = rest.position(|byte| *byte == b'\n') else {
+            self.searched = self.bytes.len();
+            return None;
+        };
+        let start = self.line;
+        self.searched += length + 1;
+        self.line = self.searched;
+        Some(start..self.line)
+    }
+
+    /// Takes the first `end` bytes out.
+    fn take(&mut self, end: usize) -> String {
+        (self.line, self.searched) = (0, 0);
+        let text = String::from_utf8_lossy(&self.bytes[..end]).into_owned();
+        self.bytes.drain(..end);
+        text
     }
 }
 

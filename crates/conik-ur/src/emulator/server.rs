@@ -1,17 +1,14 @@
 //! Sockets and threads: who listens, who reads, who writes.
 //!
-//! One thread accepts on each port and ends last, after the threads of its connections. An RTDE
-//! connection has one thread that reads and one that writes, a script connection one that reads.
+//! One thread accepts on each port and ends last, after the threads of its connections. An connection has
+//! one thread that reads and one that writes.
 
 use super::config::EmulatorError;
-use super::dashboard;
+use super::inbound::{Inbound, Service, Then};
 use super::lock;
 use super::outbox::Outbox;
-use super::script_port::ScriptReader;
-use super::state_message;
-use super::world::{Hears, Shared};
-use crate::wire::FrameReader;
-use std::io::{ErrorKind, Read, Write};
+use super::world::Shared;
+use std::io::{self, ErrorKind, Read, Write};
 use std::net::{IpAddr, Shutdown, SocketAddr, TcpListener, TcpStream};
 use std::sync::Arc;
 use std::thread::{self, JoinHandle};
@@ -23,8 +20,8 @@ const ACCEPT_EVERY: Duration = Duration::from_millis(2);
 /// A client that has read nothing for so long is gone.
 const WRITE_TIMEOUT: Duration = Duration::from_secs(10);
 
-/// The longest line that the dashboard takes.
-const LONGEST_LINE: usize = 4096;
+/// Connections to one port at a time; a real controller takes fewer.
+const MOST_CONNECTIONS: usize = 256;
 
 /// Opens a port; 0 is any free one.
 pub(super) fn listen(address: IpAddr, port: u16) -> Result<(TcpListener, u16), EmulatorError> {
@@ -38,18 +35,6 @@ pub(super) fn listen(address: IpAddr, port: u16) -> Result<(TcpListener, u16), E
     listener.set_nonblocking(true).map_err(failed)?;
     let number = listener.local_addr().map_err(failed)?.port();
     Ok((listener, number))
-}
-
-/// What a port speaks.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Service {
-    Rtde,
-    /// The state as the primary and secondary ports send it; programs come in.
-    State,
-    StateReadOnly,
-    RealTime,
-    RealTimeReadOnly,
-    Dashboard,
 }
 
 /// Starts to serve an open port.
@@ -67,18 +52,48 @@ pub(super) fn serve(
 
 fn accept(shared: &Arc<Shared>, listener: &TcpListener, service: Service) {
     let mut connections: Vec<JoinHandle<()>> = Vec::new();
+    let mut is_short = false;
     while !lock(&shared.world).is_closing {
-        match listener.accept() {
-            Ok((stream, _)) => connections.extend(spawn_connection(shared, stream, service)),
-            // Nobody there, or a connection that broke before it was accepted.
-            Err(_) => thread::sleep(ACCEPT_EVERY),
-        }
         connections.retain(|thread| !thread.is_finished());
+        match listener.accept() {
+            Ok((stream, _)) if connections.len() < MOST_CONNECTIONS => {
+                is_short = false;
+                connections.extend(spawn_connection(shared, stream, service));
+            }
+            Ok(_) => note(shared, service, "connection refused: too many"),
+            Err(error) => {
+                // No more connections than the system has room for; said once until one fits.
+                let was_short = std::mem::replace(&mut is_short, is_shortage(&error));
+                if is_short && !was_short {
+                    note(shared, service, &format!("connections wait: {error}"));
+                }
+                // Nobody there, or a connection that broke before it was accepted.
+                thread::sleep(ACCEPT_EVERY);
+            }
+        }
     }
     for thread in connections {
         // A thread that panicked has nothing left to end.
         let _ = thread.join();
     }
+}
+
+fn note(shared: &Shared, service: Service, what: &str) {
+    let line = format!("{service:?} port: {what}");
+    lock(&shared.world).controller.note(&line);
+}
+
+/// Whether the system is out of something, and not only out of clients.
+fn is_shortage(error: &io::Error) -> bool {
+    use ErrorKind::{ConnectionAborted, ConnectionReset, Interrupted, TimedOut, WouldBlock};
+    let harmless = [
+        WouldBlock,
+        Interrupted,
+        ConnectionAborted,
+        ConnectionReset,
+        TimedOut,
+    ];
+    !harmless.contains(&error.kind())
 }
 
 /// Starts the thread of a connection; one that cannot be served is closed.
@@ -91,65 +106,41 @@ fn spawn_connection(
     stream.set_nonblocking(false).ok()?;
     stream.set_nodelay(true).ok()?;
     stream.set_write_timeout(Some(WRITE_TIMEOUT)).ok()?;
+    let stream = Arc::new(stream);
     let id = lock(&shared.world).admit(&stream)?;
     let for_thread = Arc::clone(shared);
     let thread = thread::Builder::new()
         .name(format!("emulator connection {id}"))
         .spawn(move || {
-            serve_connection(&for_thread, id, stream, service);
+            serve_connection(&for_thread, id, &stream, service);
             lock(&for_thread.world).remove(id);
             for_thread.changed.notify_all();
         });
-    if thread.is_err() {
+    if let Err(error) = &thread {
         lock(&shared.world).remove(id);
+        note(shared, service, &format!("connection refused: {error}"));
     }
     thread.ok()
 }
 
-fn serve_connection(shared: &Shared, id: u64, stream: TcpStream, service: Service) {
-    let outbox = {
-        let mut world = lock(&shared.world);
-        match service {
-            Service::Rtde => world.add_client(id),
-            Service::State | Service::StateReadOnly => {
-                let outbox = world.add_listener(id, Hears::State);
-                outbox.answer(state_message::version_message(shared.version));
-                outbox
-            }
-            Service::RealTime | Service::RealTimeReadOnly => {
-                world.add_listener(id, Hears::RealTime)
-            }
-            Service::Dashboard => {
-                let outbox = world.add_listener(id, Hears::Nothing);
-                outbox.answer(dashboard::GREETING.as_bytes().to_vec());
-                outbox
-            }
-        }
-    };
-    let Ok(writing_end) = stream.try_clone() else {
-        return;
-    };
+fn serve_connection(shared: &Shared, id: u64, stream: &TcpStream, service: Service) {
+    let mut inbound = Inbound::join(shared, id, service);
+    let outbox = Arc::clone(inbound.outbox());
     thread::scope(|scope| {
         let writer = thread::Builder::new()
             .name(format!("emulator writer {id}"))
-            .spawn_scoped(scope, || write_all_of(&outbox, writing_end, service));
+            .spawn_scoped(scope, || write_all_of(&outbox, stream, service));
         if writer.is_ok() {
-            match service {
-                Service::Rtde => read_packages(shared, id, stream),
-                Service::State | Service::RealTime => read_scripts(shared, id, stream),
-                Service::StateReadOnly | Service::RealTimeReadOnly => {
-                    for_each_portion(stream, |_| true);
-                }
-                Service::Dashboard => read_lines(shared, id, &outbox, stream),
-            }
+            read_all(stream, |bytes| inbound.take(shared, bytes));
         }
-        outbox.close();
+        // Whoever has said all that they had to say may still want the answers.
+        outbox.finish();
     });
 }
 
-fn write_all_of(outbox: &Outbox, mut stream: TcpStream, service: Service) {
+fn write_all_of(outbox: &Outbox, stream: &TcpStream, service: Service) {
     while let Some(bytes) = outbox.take() {
-        if !write(outbox, &mut stream, &bytes, service) {
+        if !write(outbox, stream, &bytes, service) {
             break;
         }
     }
@@ -159,7 +150,7 @@ fn write_all_of(outbox: &Outbox, mut stream: TcpStream, service: Service) {
 
 /// Writes all bytes; `false` if the client is gone. Who only sends programs to the state ports
 /// never reads them, and is waited for.
-fn write(outbox: &Outbox, stream: &mut TcpStream, mut bytes: &[u8], service: Service) -> bool {
+fn write(outbox: &Outbox, mut stream: &TcpStream, mut bytes: &[u8], service: Service) -> bool {
     while !bytes.is_empty() {
         let portion = bytes.len().min(outbox.portion());
         match stream.write(&bytes[..portion]) {
@@ -169,82 +160,26 @@ fn write(outbox: &Outbox, stream: &mut TcpStream, mut bytes: &[u8], service: Ser
             Err(error)
                 if matches!(error.kind(), ErrorKind::WouldBlock | ErrorKind::TimedOut)
                     && !matches!(service, Service::Rtde | Service::Dashboard)
-                    && !outbox.is_closed() => {}
+                    && !outbox.is_ending() => {}
             Err(_) => return false,
         }
     }
     true
 }
 
-fn read_packages(shared: &Shared, id: u64, stream: TcpStream) {
-    let mut reader = FrameReader::new();
-    for_each_portion(stream, |bytes| {
-        reader.push(bytes);
-        loop {
-            match reader.next_frame() {
-                Ok(Some(frame)) => shared.handle(id, &frame),
-                Ok(None) => return true,
-                Err(error) => {
-                    let line = format!("client {id}: connection closed: {error}");
-                    lock(&shared.world).controller.note(&line);
-                    return false;
-                }
-            }
-        }
-    });
-}
-
-fn read_scripts(shared: &Shared, id: u64, stream: TcpStream) {
-    let mut reader = ScriptReader::default();
-    for_each_portion(stream, |bytes| {
-        if reader.push(bytes).is_err() {
-            let line = format!("script client {id}: connection closed: program too long");
-            lock(&shared.world).controller.note(&line);
-            return false;
-        }
-        while let Some(program) = reader.next_program() {
-            shared.run_script(&program);
-        }
-        true
-    });
-}
-
-fn read_lines(shared: &Shared, id: u64, outbox: &Outbox, stream: TcpStream) {
-    let mut waiting: Vec<u8> = Vec::new();
-    for_each_portion(stream, |bytes| {
-        waiting.extend_from_slice(bytes);
-        while let Some(end) = waiting.iter().position(|byte| *byte == b'\n') {
-            let line = String::from_utf8_lossy(&waiting[..end]).into_owned();
-            waiting.drain(..=end);
-            let said = dashboard::answer(&mut lock(&shared.world), &line);
-            outbox.answer(format!("{said}\n").into_bytes());
-            if said == dashboard::FAREWELL {
-                outbox.finish();
-            }
-            shared.changed.notify_all();
-        }
-        if waiting.len() > LONGEST_LINE {
-            let line = format!("dashboard client {id}: connection closed: line too long");
-            lock(&shared.world).controller.note(&line);
-        }
-        waiting.len() <= LONGEST_LINE
-    });
-}
-
-/// Hands over bytes as they come in until the client leaves or `go_on` says no.
-fn for_each_portion(mut stream: TcpStream, mut go_on: impl FnMut(&[u8]) -> bool) {
+/// Hands over bytes as they come in, until the client has no more to say or is not heard any more.
+fn read_all(mut stream: &TcpStream, mut take: impl FnMut(&[u8]) -> Then) {
     let mut buffer = [0; 4096];
     loop {
         match stream.read(&mut buffer) {
-            Ok(0) => break,
+            Ok(0) => return,
             Ok(size) => {
-                if !go_on(&buffer[..size]) {
-                    break;
+                if take(&buffer[..size]) == Then::Close {
+                    return;
                 }
             }
             Err(error) if error.kind() == ErrorKind::Interrupted => {}
-            Err(_) => break,
+            Err(_) => return,
         }
     }
-    let _ = stream.shutdown(Shutdown::Both);
 }

@@ -13,9 +13,6 @@ use std::net::{Shutdown, TcpStream};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
-/// Connections at a time; a real controller takes fewer.
-const MOST_CONNECTIONS: usize = 256;
-
 /// How often the primary and secondary ports send the state [Hz].
 const STATE_HZ: f64 = 10.0;
 
@@ -43,7 +40,7 @@ pub(super) struct World {
     network: Network,
     one_byte: bool,
     /// Every open connection, so that all can be woken at the end.
-    connections: BTreeMap<u64, TcpStream>,
+    connections: BTreeMap<u64, Arc<TcpStream>>,
     next_id: u64,
     /// Whether a program ran in the last cycle.
     program_ran: bool,
@@ -96,20 +93,21 @@ impl World {
         }
     }
 
-    /// Takes in a connection and numbers it; `None` if it cannot be taken.
-    pub(super) fn admit(&mut self, stream: &TcpStream) -> Option<u64> {
+    /// Takes in a connection and numbers it; `None` at the end.
+    pub(super) fn admit(&mut self, stream: &Arc<TcpStream>) -> Option<u64> {
         if self.is_closing {
             return None;
         }
-        if self.connections.len() >= MOST_CONNECTIONS {
-            self.controller.note("connection refused: too many");
-            return None;
-        }
-        let stream = stream.try_clone().ok()?;
+        let id = self.new_id();
+        self.connections.insert(id, Arc::clone(stream));
+        Some(id)
+    }
+
+    /// Clients are numbered from 1.
+    pub(super) fn new_id(&mut self) -> u64 {
         let id = self.next_id;
         self.next_id += 1;
-        self.connections.insert(id, stream);
-        Some(id)
+        id
     }
 
     /// Makes an admitted connection an RTDE client.
@@ -332,6 +330,14 @@ impl Shared {
             client.owes_an_answer = false;
         }
         self.changed.notify_all();
+    }
+
+    /// Tells a client what was wrong with what it sent.
+    pub(super) fn complain(&self, id: u64, fault: &str) {
+        if let Some(client) = lock(&self.world).clients.get(&id) {
+            let message = TextMessage::new(TextLevel::Error, "RTDE", fault);
+            client.answer(&Reply::Text(message));
+        }
     }
 
     /// Acts on a program of a client of the script port.
