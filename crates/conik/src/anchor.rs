@@ -12,7 +12,7 @@ use alloc::vec::Vec;
 use crate::barrier::Barrier;
 use crate::joints::JointVec;
 use crate::limits::Limits;
-use crate::linalg::{Constraints, DualActiveSet, Solution, add_scaled, dot};
+use crate::linalg::{Constraints, DualActiveSet, Solution, add_scaled, clear, dot};
 use crate::real::sqrt;
 
 /// ε: how much a demand that cannot be met in full yields to a smaller velocity [(unit/rad)²].
@@ -59,13 +59,13 @@ impl Anchor {
 
     /// Rest.
     pub(crate) fn rest(&mut self) {
-        self.velocity.fill(0.0);
+        clear(&mut self.velocity);
     }
 
     /// Finds the anchor, and turns what the barrier demands and wishes into what can be met.
     pub(crate) fn find(&mut self, tick: &mut AnchorTick<'_>) {
         let limited = tick.limits.has_acceleration();
-        self.velocity.fill(0.0);
+        self.rest();
         if limited {
             self.velocity.copy_from_slice(tick.before);
         }

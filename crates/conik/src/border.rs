@@ -209,8 +209,10 @@ impl Borders {
     }
 
     /// Whether a value is on the border or outside.
+    #[inline]
     pub(crate) fn is_at_border(&self, task: TaskId, sigma: f64) -> bool {
-        self.sides_at(task, sigma).next().is_some()
+        let set = self.with_band(task);
+        sigma <= set.min || sigma >= set.max
     }
 
     /// Sides of the active sets at whose border they now are.

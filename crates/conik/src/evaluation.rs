@@ -4,6 +4,7 @@ use alloc::vec::Vec;
 
 use crate::active::ActiveSet;
 use crate::kinematics::Kinematics;
+use crate::linalg::are_equal;
 use crate::robot::Robot;
 use crate::stack::{Goal, Stack};
 use crate::task::JacobianMut;
@@ -79,7 +80,7 @@ impl Evaluation {
 
     /// Whether the robot is at `q`.
     pub(crate) fn is_at(&self, q: &[f64]) -> bool {
-        **self.kinematics.q() == *q
+        are_equal(self.kinematics.q(), q)
     }
 
     /// Values of all tasks at `q` now, errors of the equality tasks, and drifts. Jacobians wait to be

@@ -167,6 +167,11 @@ impl Hierarchy {
         let frozen = self.above.rank();
         let frozen_rates = &self.frozen_rates[..frozen];
         let mut is_zero = frozen_rates.iter().all(|rate| *rate == 0.0);
+        if is_zero && let Some(asked) = self.asked_of_one_level() {
+            copy(velocity, asked);
+            project_strictly(&self.above, velocity);
+            return;
+        }
         if !is_zero {
             velocity.fill(0.0);
             for (k, rate) in frozen_rates.iter().enumerate() {
@@ -301,12 +306,10 @@ fn rate_asked<'a>(
         Goal::Equality {
             desired_rate, gain, ..
         } => {
-            for ((rate, error), feed_forward) in rate
-                .iter_mut()
-                .zip(evaluation.errors().of(task))
-                .zip(desired_rate)
-            {
-                *rate = feed_forward + gain * error;
+            let feed_forward = &desired_rate[..rate.len()];
+            let errors = &evaluation.errors().of(task)[..rate.len()];
+            for k in 0..rate.len() {
+                rate[k] = feed_forward[k] + gain * errors[k];
             }
         }
         Goal::Set {
@@ -325,8 +328,10 @@ fn rate_asked<'a>(
             rate[0] = moves + gain.unwrap_or(0.0) * (bound - sigma);
         }
     }
-    for (rate, drift) in rate.iter_mut().zip(evaluation.drifts().of(task)) {
-        *rate -= drift;
+    if evaluation.is_any_drifting() {
+        for (rate, drift) in rate.iter_mut().zip(evaluation.drifts().of(task)) {
+            *rate -= drift;
+        }
     }
     rate
 }

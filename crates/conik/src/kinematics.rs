@@ -4,6 +4,7 @@ use alloc::vec::Vec;
 
 use crate::geometry::{Pose, Vec3};
 use crate::joints::JointVec;
+use crate::linalg::{are_equal, copy};
 use crate::robot::dh::Link;
 use crate::robot::{Joint, JointKind, Robot};
 use crate::trigonometry::sin_cos;
@@ -70,8 +71,8 @@ impl Kinematics {
     #[inline]
     pub fn update(&mut self, q: &[f64]) {
         assert_eq!(q.len(), self.links.len(), "one position per joint");
-        if *self.q != *q {
-            self.q.copy_from_slice(q);
+        if !are_equal(&self.q, q) {
+            copy(&mut self.q, q);
             self.place_frames();
         }
     }

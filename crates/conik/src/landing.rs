@@ -28,7 +28,7 @@ use crate::border::{Borders, MARGIN};
 use crate::evaluation::Evaluation;
 use crate::joints::JointVec;
 use crate::limits::Limits;
-use crate::linalg::{Constraints, DualActiveSet, Solution, add_scaled, dot};
+use crate::linalg::{Constraints, DualActiveSet, Solution, add_scaled, clear, dot};
 use crate::sides::{Held, Side, Sides, landing_rate};
 use crate::stack::Stack;
 use crate::task_id::TaskId;
@@ -278,7 +278,7 @@ impl Landing {
 
     /// The least change under the first `rows` rows, the first `held` held sides met exactly.
     fn change_by_least(&mut self, approach: &mut Approach<'_>, held: usize, rows: usize) -> bool {
-        self.change.fill(0.0);
+        clear(&mut self.change);
         self.solver.set_identity();
         let constraints = Constraints {
             rows: &self.rows,

@@ -6,6 +6,7 @@
 
 use alloc::vec::Vec;
 
+use crate::linalg::exceeds;
 use crate::robot::Robot;
 
 /// A joint at whose limit the velocity was shortened.
@@ -98,9 +99,8 @@ impl Limits {
 
     /// Shortens a velocity towards `anchor` until every joint is within its speed limit.
     pub(crate) fn shorten_to_speed(&self, qd: &mut [f64], anchor: &[f64]) -> Option<Shortened> {
-        // Almost always none is too fast, which is found out without a branch for each joint.
-        let speeds = qd.iter().zip(&self.speed);
-        if !speeds.fold(false, |found, (qd, limit)| found | (qd.abs() > *limit)) {
+        // Almost always none is too fast.
+        if !exceeds(qd, &self.speed) {
             return None;
         }
         shorten(qd, anchor, |joint| self.range(joint, None))

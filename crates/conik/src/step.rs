@@ -74,19 +74,26 @@ impl Step {
     /// Adds the reasons that stand in the other fields.
     pub(crate) fn explain_motion(&mut self) {
         let landed = self.landed;
-        let counted =
-            |times: usize, reason: fn(usize) -> Reason| (times > 0).then(|| reason(times));
-        let reasons = [
-            self.speed_limit.map(Reason::SpeedLimit),
-            self.acceleration_limit.map(Reason::AccelerationLimit),
-            counted(landed.corrections, Reason::Corrected),
-            counted(landed.halvings, Reason::Halved),
-            landed.cautious.map(Reason::Cautious),
-            landed.stood_still.then_some(Reason::StandsStill),
-            landed.outside.map(Reason::GoesOutside),
-        ];
-        for reason in reasons.into_iter().flatten() {
-            self.add_reason(reason);
+        if let Some(shortened) = self.speed_limit {
+            self.add_reason(Reason::SpeedLimit(shortened));
+        }
+        if let Some(shortened) = self.acceleration_limit {
+            self.add_reason(Reason::AccelerationLimit(shortened));
+        }
+        if landed.corrections > 0 {
+            self.add_reason(Reason::Corrected(landed.corrections));
+        }
+        if landed.halvings > 0 {
+            self.add_reason(Reason::Halved(landed.halvings));
+        }
+        if let Some(share) = landed.cautious {
+            self.add_reason(Reason::Cautious(share));
+        }
+        if landed.stood_still {
+            self.add_reason(Reason::StandsStill);
+        }
+        if let Some(outside) = landed.outside {
+            self.add_reason(Reason::GoesOutside(outside));
         }
     }
 

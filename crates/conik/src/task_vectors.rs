@@ -2,7 +2,7 @@
 
 use alloc::vec::Vec;
 
-use crate::linalg::not_finite;
+use crate::linalg::{copy, not_finite};
 use crate::stack::Stack;
 use crate::task_id::TaskId;
 
@@ -54,6 +54,6 @@ impl TaskVectors {
 
     #[inline]
     pub(crate) fn copy_from(&mut self, other: &Self) {
-        self.entries.copy_from_slice(&other.entries);
+        copy(&mut self.entries, &other.entries);
     }
 }

@@ -13,7 +13,7 @@ use crate::joints::JointVec;
 use crate::kinematics::Kinematics;
 use crate::landing::{Approach, Landed, Landing};
 use crate::limits::Limits;
-use crate::linalg::{copy, not_finite};
+use crate::linalg::{add_scaled, copy, not_finite, scaled_difference};
 use crate::mode::{ModeSearch, Nearest, NearestTick};
 use crate::robot::Robot;
 use crate::settings::{Border, ModeRule, Settings};
@@ -194,14 +194,13 @@ impl Controller {
 
         let was_active = self.step.active;
         let step = &mut self.step;
-        let changes = step.qdd.iter_mut().zip(step.qd.iter().zip(self.qd.iter()));
-        for (qdd, (before, now)) in changes {
-            *qdd = (now - before) * self.settings.rate_hz;
+        scaled_difference(&mut step.qdd, self.settings.rate_hz, &self.qd, &step.qd);
+        if self.limits.has_acceleration() {
+            step.acceleration_exceeded = self
+                .limits
+                .exceeded(&step.qdd)
+                .max_by(|a, b| a.times.total_cmp(&b.times));
         }
-        step.acceleration_exceeded = self
-            .limits
-            .exceeded(&step.qdd)
-            .max_by(|a, b| a.times.total_cmp(&b.times));
         copy(&mut step.q_ref, &self.q_ref);
         copy(&mut step.qd, &self.qd);
         step.speed_limit = speed_limit;
@@ -281,9 +280,8 @@ impl Controller {
         pivots: &mut usize,
     ) -> Landed {
         if self.settings.border == Border::Freeze {
-            for (q_ref, (q, qd)) in self.q_ref.iter_mut().zip(q.iter().zip(self.qd.iter())) {
-                *q_ref = q + self.period * qd;
-            }
+            copy(&mut self.q_ref, q);
+            add_scaled(&mut self.q_ref, self.period, &self.qd);
             return Landed::default();
         }
         let mut held = match &self.rule {

@@ -58,6 +58,50 @@ pub(crate) fn add_scaled(y: &mut [f64], factor: f64, x: &[f64]) {
     }
 }
 
+/// `y = factor * (a - b)`
+#[inline]
+pub(crate) fn scaled_difference(y: &mut [f64], factor: f64, a: &[f64], b: &[f64]) {
+    if let (Ok(y), Ok(a), Ok(b)) = (
+        <&mut [f64; COMMON]>::try_from(&mut *y),
+        <&[f64; COMMON]>::try_from(a),
+        <&[f64; COMMON]>::try_from(b),
+    ) {
+        for k in 0..COMMON {
+            y[k] = factor * (a[k] - b[k]);
+        }
+        return;
+    }
+    for (y, (a, b)) in y.iter_mut().zip(a.iter().zip(b)) {
+        *y = factor * (a - b);
+    }
+}
+
+/// Whether an entry is larger, whatever its sign, than the bound of its place.
+#[inline]
+pub(crate) fn exceeds(values: &[f64], bounds: &[f64]) -> bool {
+    if let (Ok(values), Ok(bounds)) = (
+        <&[f64; COMMON]>::try_from(values),
+        <&[f64; COMMON]>::try_from(bounds),
+    ) {
+        // Without a branch for each entry.
+        return (0..COMMON).fold(false, |found, k| found | (values[k].abs() > bounds[k]));
+    }
+    values
+        .iter()
+        .zip(bounds)
+        .any(|(value, bound)| value.abs() > *bound)
+}
+
+/// `y = 0`
+#[inline]
+pub(crate) fn clear(y: &mut [f64]) {
+    if let Ok(y) = <&mut [f64; COMMON]>::try_from(&mut *y) {
+        *y = [0.0; COMMON];
+        return;
+    }
+    y.fill(0.0);
+}
+
 /// `y = x`
 #[inline]
 pub(crate) fn copy(y: &mut [f64], x: &[f64]) {
@@ -71,18 +115,30 @@ pub(crate) fn copy(y: &mut [f64], x: &[f64]) {
     y.copy_from_slice(x);
 }
 
+/// Whether two vectors of the same length agree in every entry.
+#[inline]
+pub(crate) fn are_equal(a: &[f64], b: &[f64]) -> bool {
+    if let (Ok(a), Ok(b)) = (<&[f64; COMMON]>::try_from(a), <&[f64; COMMON]>::try_from(b)) {
+        // Without a branch for each entry.
+        return (0..COMMON).filter(|&k| a[k] != b[k]).count() == 0;
+    }
+    a == b
+}
+
 /// Index of the first number that is not finite.
 #[inline]
 pub(crate) fn not_finite(values: &[f64]) -> Option<usize> {
-    // Almost always there is none, which is found out without a branch for each number.
-    let is_any = values
-        .iter()
-        .fold(false, |found, value| found | !value.is_finite());
-    if is_any {
-        values.iter().position(|value| !value.is_finite())
+    // Almost always there is none, which is found out without a branch for each number: zero times a
+    // number is zero only if that is finite.
+    let all_are_finite = if let Ok(six) = <&[f64; COMMON]>::try_from(values) {
+        dot(six, &[0.0; COMMON]) == 0.0
     } else {
-        None
+        values.iter().all(|value| value.is_finite())
+    };
+    if all_are_finite {
+        return None;
     }
+    values.iter().position(|value| !value.is_finite())
 }
 
 /// Index of the longest row.

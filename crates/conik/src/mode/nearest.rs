@@ -23,7 +23,7 @@ use crate::active::ActiveSet;
 use crate::barrier::Barrier;
 use crate::border::Borders;
 use crate::evaluation::Evaluation;
-use crate::linalg::{Solution, dot};
+use crate::linalg::{Solution, clear, copy, dot};
 use crate::settings::{Recursion, Settings};
 use crate::sides::{Held, Side, Sides};
 use crate::stack::Stack;
@@ -109,7 +109,7 @@ impl Nearest {
         self.above.clear();
         self.crossings.fill(0.0);
         self.lost.fill(0);
-        velocity.fill(0.0);
+        clear(velocity);
         let mut level_above: Option<usize> = None;
         for place in 0..self.lower.len() {
             let task = self.lower[place];
@@ -160,7 +160,7 @@ impl Nearest {
                 self.tremor
                     .observe(place, velocity, self.program.velocity());
             }
-            velocity.copy_from_slice(self.program.velocity());
+            copy(velocity, self.program.velocity());
             self.remember(place, &tick.barrier.sides);
             self.lost[place] = self.program.lost();
         }

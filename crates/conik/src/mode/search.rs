@@ -37,7 +37,6 @@ use crate::cone::Interval;
 use crate::evaluation::Evaluation;
 use crate::hierarchy::Hierarchy;
 use crate::linalg::dot;
-use crate::real::sqrt;
 use crate::settings::{ModeRule, Settings};
 use crate::stack::Stack;
 use crate::task_id::TaskId;
@@ -163,9 +162,10 @@ impl ModeSearch {
         self.candidates.clear();
         self.at_border.clear();
         for &task in &self.sets {
-            let cone = borders.tangent_cone(task, evaluation.scalar(task));
-            let at_border = cone.min.is_finite() || cone.max.is_finite();
+            let sigma = evaluation.scalar(task);
+            let at_border = borders.is_at_border(task, sigma);
             if at_border {
+                let cone = borders.tangent_cone(task, sigma);
                 let drift = evaluation.drift(task);
                 let allowed = Interval {
                     min: cone.min - drift,
@@ -242,7 +242,7 @@ impl ModeSearch {
         }
         tick.evaluation.jacobian(tick.stack, task);
         let row = tick.evaluation.known_jacobian(task);
-        let share = dot(row, asked) / dot(row, row);
+        let (along_row, length) = (dot(row, asked), dot(row, row));
         for &(other, allowed) in &self.at_border {
             if other == task {
                 continue;
@@ -250,11 +250,14 @@ impl ModeSearch {
             let other_row = tick.evaluation.jacobian(tick.stack, other);
             let along = dot(other_row, asked);
             let row = tick.evaluation.known_jacobian(task);
-            let rate = along - share * dot(tick.evaluation.known_jacobian(other), row);
-            let beyond = (allowed.min - rate).max(rate - allowed.max);
-            let is_clear = || beyond > CLEARLY * sqrt(1.0 + dot(asked, asked));
+            let shared = dot(tick.evaluation.known_jacobian(other), row);
+            // Rates times a a, so that nothing waits for a division. A row without length refuses none.
+            let rate = along * length - along_row * shared;
+            let beyond = (allowed.min * length - rate).max(rate - allowed.max * length);
+            let clearly = CLEARLY * length;
+            let is_clear = || beyond * beyond > clearly * clearly * (1.0 + dot(asked, asked));
             if beyond > 0.0 && is_clear() {
-                self.leaving[other.index()] = rate;
+                self.leaving[other.index()] = rate / length;
                 self.evaluated += 1;
                 return true;
             }
