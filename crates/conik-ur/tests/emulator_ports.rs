@@ -13,6 +13,11 @@ const Q0: [f64; 6] = [0.1, -1.5, 1.2, -0.4, 0.7, 0.0];
 /// Bytes of random and mutated packages sent to each port; more by `CONIK_NOISE_PACKAGES`.
 const NOISE_PACKAGES: u32 = 300;
 
+/// The least that is taken for the program of the maker's C++ client library; nobody listens there.
+const EXTERNAL_CONTROL: &str = "def any():\n MULT_jointstate = 1000000\n MODE_STOPPED = -2\n \
+    MODE_IDLE = 0\n MODE_SERVOJ = 1\n servoj(q, lookahead_time=0.03, gain=2000)\n \
+    socket_open(\"127.0.0.1\", 9, \"reverse_socket\")\nend";
+
 fn emulator() -> Emulator {
     Emulator::start(EmulatorConfig {
         pace: Pace::Lockstep,
@@ -360,6 +365,7 @@ fn no_noise_on_any_port_brings_the_emulator_down() {
     };
     let scripts = lines(&[
         "def rtde_control():\n reg_offset_int = 24\nend",
+        EXTERNAL_CONTROL,
         "power on",
         "stopj(2)",
     ]);
@@ -393,6 +399,22 @@ fn no_noise_on_any_port_brings_the_emulator_down() {
     while rtde.cycle() < first + 10 {}
     drop(emulator);
     assert_eq!(panics.load(Ordering::Relaxed), 0, "a thread panicked");
+}
+
+#[test]
+fn a_program_whose_client_does_not_listen_ends_by_name_and_holds_nothing_up() {
+    let emulator = emulator();
+    let mut script = connect(emulator.real_time_port());
+    script.write_all(EXTERNAL_CONTROL.as_bytes()).unwrap();
+    script.write_all(b"\n").unwrap();
+    wait_for(&emulator, "external control started");
+    let mut dashboard = Dashboard::of(&emulator);
+    assert_eq!(dashboard.ask("programState"), "PLAYING externalControl");
+    wait_for(
+        &emulator,
+        "external control ended: 127.0.0.1:9 does not answer",
+    );
+    assert_eq!(dashboard.ask("running"), "Program running: false");
 }
 
 /// Waits until the log has a line that holds `part`.

@@ -1,10 +1,11 @@
 //! The emulated controller itself: clock, safety, program and arm. No threads, no sockets.
 
 use super::config::{EmulatorConfig, EmulatorError, Injection, Series};
+use super::external_control::ExternalControl;
 use super::fields::InputField;
 use super::power::Power;
 use super::registers::Registers;
-use super::running::Running;
+use super::running::{ArmState, Running};
 use super::servo_program::{Motion, RunningProgram};
 use super::ur_rtde_program::UrRtdeProgram;
 use crate::program::ServoProgram;
@@ -105,11 +106,24 @@ impl Controller {
         self.cycles += 1;
         self.actual = (*self.servo.q(), self.target_qd().into());
         self.apply_switches();
+        let cycle_s = 1.0 / self.rate_hz;
+        let arm = ArmState {
+            q: six(&self.actual.0),
+            target_qd: self.target_qd(),
+            cycle_s,
+        };
+        let mut said = Vec::new();
         let motion = match &mut self.running {
-            Some(running) if !self.paused => running.cycle(&mut self.registers),
+            Some(running) if !self.paused => {
+                let motion = running.cycle(&mut self.registers, &arm);
+                said = running.said();
+                motion
+            }
             _ => Motion::Rest,
         };
-        let cycle_s = 1.0 / self.rate_hz;
+        for line in said {
+            self.note(&line);
+        }
         let motion = match motion {
             Motion::ServoWith {
                 target,
@@ -189,12 +203,12 @@ impl Controller {
             return Err(reason.to_owned());
         }
         if let Some(program) = UrRtdeProgram::recognise(text) {
-            if self.running.is_some() {
-                self.end_program("program stopped by a new one");
-            }
-            self.running = Some(Running::UrRtde(program));
-            self.paused = false;
-            self.note("ur_rtde program started");
+            self.start(Running::UrRtde(program), "ur_rtde program started");
+            return Ok(());
+        }
+        if let Some(program) = ExternalControl::recognise(text) {
+            let program = Running::External(Box::new(program?));
+            self.start(program, "external control started");
             return Ok(());
         }
         let program = ServoProgram::parse(text).map_err(|error| error.to_string())?;
@@ -206,17 +220,20 @@ impl Controller {
         self.servo
             .set_model(model)
             .map_err(|error| error.to_string())?;
+        let running = RunningProgram::begin(program, 1.0 / self.rate_hz, &mut self.registers);
+        let line = format!("servo program started, session {}", program.session);
+        self.start(Running::Servo(Box::new(running)), &line);
+        Ok(())
+    }
+
+    /// Lets a program run, in the place of another if there is one.
+    pub(super) fn start(&mut self, program: Running, line: &str) {
         if self.running.is_some() {
             self.end_program("program stopped by a new one");
         }
-        let running = RunningProgram::begin(program, 1.0 / self.rate_hz, &mut self.registers);
-        self.running = Some(Running::Servo(Box::new(running)));
+        self.running = Some(program);
         self.paused = false;
-        self.note(&format!(
-            "servo program started, session {}",
-            program.session
-        ));
-        Ok(())
+        self.note(line);
     }
 
     pub(super) fn inject(&mut self, injection: Injection) {

@@ -9,7 +9,7 @@
 //! | `registers`, `fields` | general-purpose registers; fields by name |
 //! | `rtde`, `script_port` | the two protocols, without sockets |
 //! | `state_message`, `dashboard` | the primary, real-time and dashboard ports, without sockets |
-//! | `running`, `ur_rtde_program` | programs of other clients that are recognised |
+//! | `running`, `ur_rtde_program`, `external_control` | programs of other clients that are recognised |
 //! | `power`, `faults` | what the pendant switches; what can be brought about |
 //! | `kinematics`, `not_simulated` | where the tool is; fields that read the same for ever |
 //! | `inbound`, `outbox` | what comes in on a connection, and what goes out |
@@ -17,12 +17,14 @@
 //! | `server`, `clock` | the threads |
 //!
 //! It does not interpret `URScript`: it recognises the servo program of this crate, to the letter,
-//! and the control program of `ur-rtde` by its registers, and refuses any other. Its servo, limits and stops are assumed; see [`conik_sim::servo`].
+//! the control program of `ur-rtde` by its registers and that of the maker's C++ client library by
+//! its sockets, and refuses any other. Its servo, limits and stops are assumed; see [`conik_sim::servo`].
 
 mod clock;
 mod config;
 mod controller;
 mod dashboard;
+mod external_control;
 pub mod faults;
 mod fields;
 mod inbound;
@@ -227,7 +229,8 @@ impl Drop for Emulator {
     fn drop(&mut self) {
         lock(&self.shared.world).close();
         self.shared.changed.notify_all();
-        for thread in self.threads.drain(..) {
+        let diallers = lock(&self.shared.world).take_diallers();
+        for thread in self.threads.drain(..).chain(diallers) {
             // A thread that panicked has nothing left to end.
             let _ = thread.join();
         }

@@ -1,14 +1,29 @@
 //! The program that runs: ours, or one of another client that is recognised.
 
+use super::external_control::{Calls, ExternalControl};
 use super::registers::Registers;
 use super::servo_program::{Motion, RunningProgram};
 use super::ur_rtde_program::UrRtdeProgram;
+use crate::registers::JOINTS;
+use std::sync::Arc;
 
 /// A program while it runs.
-#[derive(Clone, Debug)]
+#[derive(Debug)]
 pub(super) enum Running {
     Servo(Box<RunningProgram>),
     UrRtde(UrRtdeProgram),
+    External(Box<ExternalControl>),
+}
+
+/// The arm as a program sees it.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct ArmState {
+    /// Measured joints [rad].
+    pub(super) q: [f64; JOINTS],
+    /// Commanded speeds [rad/s].
+    pub(super) target_qd: [f64; JOINTS],
+    /// The control cycle [s].
+    pub(super) cycle_s: f64,
 }
 
 impl Running {
@@ -17,13 +32,15 @@ impl Running {
         match self {
             Self::Servo(_) => "conik_servo",
             Self::UrRtde(_) => "rtde_control",
+            Self::External(_) => "externalControl",
         }
     }
 
-    pub(super) fn cycle(&mut self, registers: &mut Registers) -> Motion {
+    pub(super) fn cycle(&mut self, registers: &mut Registers, arm: &ArmState) -> Motion {
         match self {
             Self::Servo(program) => program.cycle(registers),
             Self::UrRtde(program) => program.cycle(registers),
+            Self::External(program) => program.cycle(arm),
         }
     }
 
@@ -35,6 +52,7 @@ impl Running {
             }
             Self::Servo(_) => None,
             Self::UrRtde(program) => program.ending().map(str::to_owned),
+            Self::External(program) => program.ending().map(str::to_owned),
         }
     }
 
@@ -44,7 +62,23 @@ impl Running {
             Self::Servo(program) => program
                 .watchdog_cycles(rate_hz)
                 .map(|cycles| (program.program().registers.first(), cycles)),
-            Self::UrRtde(_) => None,
+            Self::UrRtde(_) | Self::External(_) => None,
+        }
+    }
+
+    /// Lines for the log.
+    pub(super) fn said(&mut self) -> Vec<String> {
+        match self {
+            Self::External(program) => program.said(),
+            Self::Servo(_) | Self::UrRtde(_) => Vec::new(),
+        }
+    }
+
+    /// Sockets that have to be opened for it.
+    pub(super) fn calls(&self) -> Option<&Arc<Calls>> {
+        match self {
+            Self::External(program) => Some(program.calls()),
+            Self::Servo(_) | Self::UrRtde(_) => None,
         }
     }
 }

@@ -6,12 +6,17 @@ use super::faults::Network;
 use super::fields::InputField;
 use super::outbox::Outbox;
 use super::rtde::{Claims, RtdeClient};
+use super::running::Running;
 use super::{lock, script_port};
 use crate::wire::{ControllerVersion, Frame, Reply, TextLevel, TextMessage};
 use std::collections::{BTreeMap, VecDeque};
 use std::net::{Shutdown, TcpStream};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
+use std::thread::{self, JoinHandle};
 use std::time::Duration;
+
+/// Programs that open sockets at a time; only the last of them runs.
+const MOST_DIALLERS: usize = 8;
 
 /// How often the primary and secondary ports send the state [Hz].
 const STATE_HZ: f64 = 10.0;
@@ -42,6 +47,8 @@ pub(super) struct World {
     /// Every open connection, so that all can be woken at the end.
     connections: BTreeMap<u64, Arc<TcpStream>>,
     next_id: u64,
+    /// Threads that open sockets for programs.
+    diallers: Vec<JoinHandle<()>>,
     /// Whether a program ran in the last cycle.
     program_ran: bool,
     pub(super) is_closing: bool,
@@ -88,6 +95,7 @@ impl World {
             one_byte: false,
             connections: BTreeMap::new(),
             next_id: 1,
+            diallers: Vec::new(),
             program_ran: false,
             is_closing: false,
         }
@@ -232,9 +240,36 @@ impl World {
         self.connections.len()
     }
 
+    /// Opens the sockets that the program wants, if it wants any.
+    fn dial(&mut self) {
+        let calls = self.controller.running.as_ref().and_then(Running::calls);
+        let Some(calls) = calls.filter(|calls| calls.claim()).map(Arc::clone) else {
+            return;
+        };
+        self.diallers.retain(|thread| !thread.is_finished());
+        let thread = (self.diallers.len() < MOST_DIALLERS).then(|| {
+            thread::Builder::new()
+                .name("emulator dialler".to_owned())
+                .spawn(move || calls.dial())
+        });
+        match thread {
+            Some(Ok(thread)) => self.diallers.push(thread),
+            _ => self
+                .controller
+                .end_program("too many programs open sockets"),
+        }
+    }
+
+    /// The threads that still open sockets, to wait for after [`Self::close`].
+    pub(super) fn take_diallers(&mut self) -> Vec<JoinHandle<()>> {
+        std::mem::take(&mut self.diallers)
+    }
+
     /// Wakes every thread that waits for a client.
     pub(super) fn close(&mut self) {
         self.is_closing = true;
+        // It may hold sockets, or a thread that opens some.
+        self.controller.running = None;
         for client in self.clients.values() {
             client.outbox.close();
         }
@@ -346,7 +381,12 @@ impl Shared {
         if run_command(&mut world.controller, text.trim()) {
             return;
         }
-        if let Err(fault) = world.controller.upload(text) {
+        if world.is_closing {
+            return;
+        }
+        let taken = world.controller.upload(text);
+        world.dial();
+        if let Err(fault) = taken {
             let name = script_port::name_of(text);
             let line = format!("program '{name}' refused: {fault}");
             world.controller.note(&line);
