@@ -2,7 +2,6 @@
 
 use alloc::vec::Vec;
 
-use crate::active::ActiveSet;
 use crate::kinematics::Kinematics;
 use crate::linalg::are_equal;
 use crate::robot::Robot;
@@ -20,9 +19,9 @@ pub(crate) struct Evaluation {
     /// ∂σ/∂t of the tasks whose own parameters move; zeros for the others.
     drifts: TaskVectors,
     is_any_drifting: bool,
-    /// The Jacobian of each task, row after row.
-    jacobians: Vec<Vec<f64>>,
-    jacobian_known: ActiveSet,
+    jacobians: Vec<TaskJacobian>,
+    /// How many configurations this was at, the present one included.
+    configurations: u64,
     /// Which tasks these are: their parameters have been changed so many times.
     revision: Option<u64>,
     steepness: Vec<f64>,
@@ -32,6 +31,13 @@ pub(crate) struct Evaluation {
     is_still_known: bool,
     /// The other tasks: those to be met, and those that move by themselves.
     others: Vec<TaskId>,
+}
+
+/// The Jacobian of a task, row after row, in the configuration of this number.
+#[derive(Debug)]
+struct TaskJacobian {
+    entries: Vec<f64>,
+    configuration: u64,
 }
 
 impl Evaluation {
@@ -45,9 +51,12 @@ impl Evaluation {
             is_any_drifting: false,
             jacobians: stack
                 .iter()
-                .map(|(_, level)| alloc::vec![0.0; level.task().dimension() * robot.dof()])
+                .map(|(_, level)| TaskJacobian {
+                    entries: alloc::vec![0.0; level.task().dimension() * robot.dof()],
+                    configuration: 0,
+                })
                 .collect(),
-            jacobian_known: ActiveSet::EMPTY,
+            configurations: 1,
             revision: None,
             steepness: alloc::vec![f64::INFINITY; stack.len()],
             still: Vec::with_capacity(stack.len()),
@@ -131,7 +140,7 @@ impl Evaluation {
     }
 
     fn forget(&mut self) {
-        self.jacobian_known = ActiveSet::EMPTY;
+        self.configurations += 1;
         self.is_still_known = false;
     }
 
@@ -211,8 +220,9 @@ impl Evaluation {
 
     /// J of a task for which it was asked before.
     pub(crate) fn known_jacobian(&self, task: TaskId) -> &[f64] {
-        debug_assert!(self.jacobian_known.contains(task));
-        &self.jacobians[task.index()]
+        let jacobian = &self.jacobians[task.index()];
+        debug_assert_eq!(jacobian.configuration, self.configurations);
+        &jacobian.entries
     }
 
     /// ∂σ/∂t of a scalar task [unit/s].
@@ -229,11 +239,11 @@ impl Evaluation {
     #[inline]
     pub(crate) fn jacobian(&mut self, stack: &Stack, task: TaskId) -> &[f64] {
         let jacobian = &mut self.jacobians[task.index()];
-        if !self.jacobian_known.contains(task) {
-            let mut target = JacobianMut::new(jacobian, stack.dof());
+        if jacobian.configuration != self.configurations {
+            let mut target = JacobianMut::new(&mut jacobian.entries, stack.dof());
             stack[task].task().jacobian(&self.kinematics, &mut target);
-            self.jacobian_known.insert(task);
+            jacobian.configuration = self.configurations;
         }
-        jacobian
+        &jacobian.entries
     }
 }

@@ -53,8 +53,8 @@ pub(crate) struct ModeSearch {
     hierarchy: Hierarchy,
     rule: ModeRule,
     sets: Vec<TaskId>,
-    /// The sets above the first equality task.
-    high_priority: ActiveSet,
+    /// How many of them stand above the first equality task: they are the first tasks of the stack.
+    high_priority: usize,
     /// The core at hand.
     core: ActiveSet,
     /// The first of the closures found so far.
@@ -65,8 +65,10 @@ pub(crate) struct ModeSearch {
     open: Vec<(ActiveSet, ActiveSet)>,
     /// Sets that the rule allows to be active this tick, in list order.
     candidates: Vec<TaskId>,
-    /// Sets at or outside their border this tick, with the rates J q̇ that their cones allow.
-    at_border: Vec<(TaskId, Interval)>,
+    /// Sets at or outside their border this tick.
+    at_border: Vec<AtBorder>,
+    /// |q̇|² of the velocity asked for.
+    speed_squared: f64,
     /// How fast each task was left at the last core that it failed at [unit/s].
     leaving: Vec<f64>,
     evaluated: usize,
@@ -80,6 +82,16 @@ struct Tick<'a> {
     velocity: &'a mut [f64],
 }
 
+/// A set at or outside its border.
+#[derive(Clone, Copy, Debug)]
+struct AtBorder {
+    task: TaskId,
+    /// The rates J q̇ that its cone allows [unit/s].
+    allowed: Interval,
+    /// Its rate at the velocity asked for [unit/s], if there is one level.
+    asked: f64,
+}
+
 impl ModeSearch {
     pub(crate) fn new(stack: &Stack, settings: &Settings) -> Self {
         let sets: Vec<TaskId> = stack
@@ -89,11 +101,7 @@ impl ModeSearch {
             .collect();
         Self {
             hierarchy: Hierarchy::new(stack, settings),
-            high_priority: sets
-                .iter()
-                .copied()
-                .filter(|&task| stack.is_high_priority(task))
-                .collect(),
+            high_priority: stack.high_priority_sets().count(),
             core: ActiveSet::EMPTY,
             first: None,
             is_first_look: true,
@@ -103,6 +111,7 @@ impl ModeSearch {
             leaving: alloc::vec![0.0; stack.len()],
             sets,
             rule: settings.mode_rule,
+            speed_squared: 0.0,
             evaluated: 0,
         }
     }
@@ -138,8 +147,7 @@ impl ModeSearch {
             evaluation,
             velocity,
         };
-        let is_settled = (0..=1).any(|size| self.settles_with(&mut tick, size, 0));
-        if !is_settled {
+        if !self.is_closed(&mut tick) && !self.settles_with_one(&mut tick) {
             self.is_first_look = false;
             self.close_open(&mut tick);
             self.go_through_cores(&mut tick);
@@ -171,13 +179,40 @@ impl ModeSearch {
                     min: cone.min - drift,
                     max: cone.max - drift,
                 };
-                self.at_border.push((task, allowed));
+                self.at_border.push(AtBorder {
+                    task,
+                    allowed,
+                    asked: 0.0,
+                });
                 self.leaving[task.index()] = 0.0;
             }
             if at_border || self.rule == ModeRule::Paper {
                 self.candidates.push(task);
             }
         }
+    }
+
+    fn has_high_priority(&self, task: TaskId) -> bool {
+        task.index() < self.high_priority
+    }
+
+    /// Goes through the modes of one set until one is the answer.
+    fn settles_with_one(&mut self, tick: &mut Tick<'_>) -> bool {
+        self.look_at_border(tick);
+        for i in 0..self.candidates.len() {
+            let task = self.candidates[i];
+            if self.is_clearly_refused(tick, task) || !self.extends_core(tick, task) {
+                continue;
+            }
+            self.core.insert(task);
+            let is_settled = self.is_closed(tick);
+            self.hierarchy.release_to(0);
+            if is_settled {
+                return true;
+            }
+            self.core.remove(task);
+        }
+        false
     }
 
     /// Looks for closures of the modes of the first look.
@@ -211,9 +246,6 @@ impl ModeSearch {
         }
         for i in from..(self.candidates.len() + 1).saturating_sub(missing) {
             let task = self.candidates[i];
-            if self.is_first_look && self.is_clearly_refused(tick, task) {
-                continue;
-            }
             let frozen = self.hierarchy.frozen();
             if !self.extends_core(tick, task) {
                 continue;
@@ -229,6 +261,17 @@ impl ModeSearch {
         false
     }
 
+    /// How fast each set at the border goes at the velocity asked for, where that is one level's.
+    fn look_at_border(&mut self, tick: &mut Tick<'_>) {
+        let Some(asked) = self.hierarchy.asked_of_one_level() else {
+            return;
+        };
+        self.speed_squared = dot(asked, asked);
+        for at in &mut self.at_border {
+            at.asked = dot(tick.evaluation.jacobian(tick.stack, at.task), asked);
+        }
+    }
+
     /// Whether another set clearly leaves in the mode of this one alone, told without building the mode:
     /// with one row a frozen and one level v below, J f = J v − (a v / a a) J a. Where rounding could
     /// decide, the mode is built.
@@ -236,28 +279,20 @@ impl ModeSearch {
         let Some(asked) = self.hierarchy.asked_of_one_level() else {
             return false;
         };
-        let mut others = self.at_border.iter().filter(|(other, _)| *other != task);
-        if others.next().is_none() || !tick.borders.are_at_ease() {
+        if self.at_border.iter().all(|at| at.task == task) || !tick.borders.are_at_ease() {
             return false;
         }
         tick.evaluation.jacobian(tick.stack, task);
         let row = tick.evaluation.known_jacobian(task);
-        let (along_row, length) = (dot(row, asked), dot(row, row));
-        for &(other, allowed) in &self.at_border {
-            if other == task {
-                continue;
-            }
-            let other_row = tick.evaluation.jacobian(tick.stack, other);
-            let along = dot(other_row, asked);
-            let row = tick.evaluation.known_jacobian(task);
-            let shared = dot(tick.evaluation.known_jacobian(other), row);
+        let (along, length) = (dot(row, asked), dot(row, row));
+        for at in self.at_border.iter().filter(|at| at.task != task) {
             // Rates times a a, so that nothing waits for a division. A row without length refuses none.
-            let rate = along * length - along_row * shared;
-            let beyond = (allowed.min * length - rate).max(rate - allowed.max * length);
+            let shared = dot(tick.evaluation.known_jacobian(at.task), row);
+            let rate = at.asked * length - along * shared;
+            let beyond = (at.allowed.min * length - rate).max(rate - at.allowed.max * length);
             let clearly = CLEARLY * length;
-            let is_clear = || beyond * beyond > clearly * clearly * (1.0 + dot(asked, asked));
-            if beyond > 0.0 && is_clear() {
-                self.leaving[other.index()] = rate / length;
+            if beyond > 0.0 && beyond * beyond > clearly * clearly * (1.0 + self.speed_squared) {
+                self.leaving[at.task.index()] = rate / length;
                 self.evaluated += 1;
                 return true;
             }
@@ -268,11 +303,12 @@ impl ModeSearch {
     /// Whether a set below those of the core makes a larger one with them. If it has high priority,
     /// it is then frozen.
     fn extends_core(&mut self, tick: &mut Tick<'_>, task: TaskId) -> bool {
+        let has_high_priority = self.has_high_priority(task);
         let (stack, hierarchy) = (tick.stack, &mut self.hierarchy);
         if stack[task].excluded().intersects(&self.core) {
             return false;
         }
-        if self.high_priority.contains(task) {
+        if has_high_priority {
             let rate = frozen_rate(stack, tick.borders, tick.evaluation, task);
             hierarchy.freeze(stack, tick.evaluation, task, rate)
         } else {
@@ -285,7 +321,7 @@ impl ModeSearch {
         let core = self.core;
         self.find_velocity(tick, &core);
         let mut closure = core;
-        for &(task, allowed) in &self.at_border {
+        for &AtBorder { task, allowed, .. } in &self.at_border {
             if core.contains(task) {
                 continue;
             }
@@ -295,7 +331,7 @@ impl ModeSearch {
             if rate < allowed.min || rate > allowed.max {
                 self.leaving[task.index()] = rate + tick.evaluation.drift(task);
                 let is_excluded = tick.stack[task].excluded().intersects(&closure);
-                if is_excluded || self.high_priority.contains(task) {
+                if is_excluded || self.has_high_priority(task) {
                     return false;
                 }
                 closure.insert(task);
@@ -330,7 +366,7 @@ impl ModeSearch {
     fn freeze_alone(&mut self, tick: &mut Tick<'_>, mode: &ActiveSet) {
         self.hierarchy.release_to(0);
         for task in mode.iter() {
-            if self.high_priority.contains(task) {
+            if self.has_high_priority(task) {
                 let rate = frozen_rate(tick.stack, tick.borders, tick.evaluation, task);
                 self.hierarchy
                     .freeze(tick.stack, tick.evaluation, task, rate);
