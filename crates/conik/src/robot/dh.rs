@@ -39,20 +39,59 @@ impl DhRow {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Link {
     a: f64,
-    cos_alpha: f64,
-    sin_alpha: f64,
+    twist: Twist,
     d: f64,
     theta: f64,
     kind: JointKind,
 }
 
+/// The turn by α about the new x. Most arms have none but those of a quarter, which cost little.
+#[derive(Clone, Copy, Debug)]
+enum Twist {
+    /// By ±π/2; the sign is sin α.
+    Quarter {
+        sign: f64,
+    },
+    /// By nothing.
+    None,
+    Any {
+        cos: f64,
+        sin: f64,
+    },
+}
+
+impl Twist {
+    fn new(alpha_rad: f64) -> Self {
+        /// A sine or cosine of less than this is that of a multiple of π/2 that was rounded.
+        const ROUNDED: f64 = 1e-15;
+        let (sin, cos) = sin_cos(alpha_rad);
+        if cos.abs() < ROUNDED {
+            Self::Quarter { sign: sin.signum() }
+        } else if sin.abs() < ROUNDED && cos > 0.0 {
+            Self::None
+        } else {
+            Self::Any { cos, sin }
+        }
+    }
+
+    /// The y and the z axis after the turn.
+    #[inline]
+    fn turn(self, y_axis: Vec3, z_axis: Vec3) -> (Vec3, Vec3) {
+        if let Self::Quarter { sign } = self {
+            return (z_axis * sign, y_axis * -sign);
+        }
+        if let Self::Any { cos, sin } = self {
+            return (y_axis * cos + z_axis * sin, z_axis * cos - y_axis * sin);
+        }
+        (y_axis, z_axis)
+    }
+}
+
 impl Link {
     pub(crate) fn new(joint: &Joint) -> Self {
-        let (sin_alpha, cos_alpha) = sin_cos(joint.dh.alpha_rad);
         Self {
             a: joint.dh.a_m,
-            cos_alpha,
-            sin_alpha,
+            twist: Twist::new(joint.dh.alpha_rad),
             d: joint.dh.d_m,
             theta: joint.dh.theta_rad,
             kind: joint.kind,
@@ -81,10 +120,11 @@ impl Link {
         };
         let x_axis = previous.x_axis * cos + previous.y_axis * sin;
         let across: Vec3 = previous.y_axis * cos - previous.x_axis * sin;
+        let (y_axis, z_axis) = self.twist.turn(across, previous.z_axis);
         Pose {
             x_axis,
-            y_axis: across * self.cos_alpha + previous.z_axis * self.sin_alpha,
-            z_axis: previous.z_axis * self.cos_alpha - across * self.sin_alpha,
+            y_axis,
+            z_axis,
             origin: previous.origin + previous.z_axis * d + x_axis * self.a,
         }
     }
