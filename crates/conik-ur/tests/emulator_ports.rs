@@ -111,28 +111,12 @@ impl Rtde {
     }
 }
 
+/// Every answer stands in a table beside the dashboard itself; here it is the connection.
 #[test]
-fn the_dashboard_answers_in_the_words_that_clients_match() {
+fn the_dashboard_answers_line_by_line_until_it_is_told_to_quit() {
     let emulator = emulator();
     let mut dashboard = Dashboard::of(&emulator);
     for (question, answer) in [
-        ("robotmode", "Robotmode: RUNNING"),
-        ("  SafetyMode ", "Safetymode: NORMAL"),
-        ("safetystatus", "Safetystatus: NORMAL"),
-        ("running", "Program running: false"),
-        ("programState", "STOPPED <unnamed>"),
-        ("load pick.urp", "Loading program: pick.urp"),
-        ("get loaded program", "Loaded program: pick.urp"),
-        ("programState", "STOPPED pick.urp"),
-        ("is in remote control", "true"),
-        ("play", "Failed to execute: play"),
-        ("pause", "Failed to execute: pause"),
-        ("stop", "Stopped"),
-        ("power off", "Powering off"),
-        ("robotmode", "Robotmode: POWER_OFF"),
-        ("power on", "Powering on"),
-        ("robotmode", "Robotmode: IDLE"),
-        ("brake release", "Brake releasing"),
         ("robotmode", "Robotmode: RUNNING"),
         ("dance", "could not understand: 'dance'"),
         ("quit", "Disconnected"),

@@ -13,6 +13,8 @@ pub(super) enum Running {
     Servo(Box<RunningProgram>),
     UrRtde(UrRtdeProgram),
     External(Box<ExternalControl>),
+    /// A program of the pendant, by its name: it waits and moves nothing.
+    Pendant(String),
 }
 
 /// The arm as a program sees it.
@@ -28,11 +30,12 @@ pub(super) struct ArmState {
 
 impl Running {
     /// What the dashboard calls it.
-    pub(super) fn name(&self) -> &'static str {
+    pub(super) fn name(&self) -> &str {
         match self {
             Self::Servo(_) => "conik_servo",
             Self::UrRtde(_) => "rtde_control",
             Self::External(_) => "externalControl",
+            Self::Pendant(name) => name,
         }
     }
 
@@ -41,6 +44,7 @@ impl Running {
             Self::Servo(program) => program.cycle(registers),
             Self::UrRtde(program) => program.cycle(registers),
             Self::External(program) => program.cycle(arm),
+            Self::Pendant(_) => Motion::Rest,
         }
     }
 
@@ -50,7 +54,7 @@ impl Running {
             Self::Servo(program) if program.is_ending() => {
                 Some(format!("servo program ended: {:?}", program.phase()))
             }
-            Self::Servo(_) => None,
+            Self::Servo(_) | Self::Pendant(_) => None,
             Self::UrRtde(program) => program.ending().map(str::to_owned),
             Self::External(program) => program.ending().map(str::to_owned),
         }
@@ -62,7 +66,7 @@ impl Running {
             Self::Servo(program) => program
                 .watchdog_cycles(rate_hz)
                 .map(|cycles| (program.program().registers.first(), cycles)),
-            Self::UrRtde(_) | Self::External(_) => None,
+            Self::UrRtde(_) | Self::External(_) | Self::Pendant(_) => None,
         }
     }
 
@@ -70,7 +74,7 @@ impl Running {
     pub(super) fn said(&mut self) -> Vec<String> {
         match self {
             Self::External(program) => program.said(),
-            Self::Servo(_) | Self::UrRtde(_) => Vec::new(),
+            Self::Servo(_) | Self::UrRtde(_) | Self::Pendant(_) => Vec::new(),
         }
     }
 
@@ -78,7 +82,7 @@ impl Running {
     pub(super) fn calls(&self) -> Option<&Arc<Calls>> {
         match self {
             Self::External(program) => Some(program.calls()),
-            Self::Servo(_) | Self::UrRtde(_) => None,
+            Self::Servo(_) | Self::UrRtde(_) | Self::Pendant(_) => None,
         }
     }
 }

@@ -14,8 +14,13 @@ const STATE: u8 = 16;
 const MESSAGE: u8 = 20;
 const VERSION_MESSAGE: u8 = 3;
 
-/// Bytes of the real-time package since 5.10.
-const REAL_TIME_SIZE: usize = 1220;
+/// Bytes of the real-time package, by which readers tell the versions apart.
+fn real_time_size(series: Series) -> usize {
+    match series {
+        Series::Cb3 => 1108,
+        Series::E => 1220,
+    }
+}
 
 /// `joint_mode` of a joint in motion or ready for it, and of one without power.
 const JOINT_RUNNING: u8 = 253;
@@ -195,10 +200,11 @@ impl Controller {
         values.doubles(&[self.digital_outputs() as f64]);
         values.doubles(&[f64::from(self.runtime_state())]);
         let mut package = Bytes::default();
+        let size = real_time_size(self.series);
         #[allow(clippy::cast_possible_truncation)] // 1220.
-        package.int(REAL_TIME_SIZE as u32).0.extend(values.0);
+        package.int(size as u32).0.extend(values.0);
         // Elbow, forces and payload are not simulated.
-        package.0.resize(REAL_TIME_SIZE, 0);
+        package.0.resize(size, 0);
         package.0
     }
 }
@@ -250,28 +256,42 @@ mod tests {
     use crate::emulator::EmulatorConfig;
     use conik::JointVec;
 
+    fn controller(series: Series) -> Controller {
+        let config = EmulatorConfig::new(series, JointVec::zeros(JOINTS));
+        Controller::new(&config).unwrap()
+    }
+
+    /// The mode's package has one byte more since 5.10.
     #[test]
     fn sub_packages_have_the_sizes_that_strict_readers_expect() {
-        let config = EmulatorConfig::new(Series::E, JointVec::zeros(JOINTS));
-        let controller = Controller::new(&config).unwrap();
-        let message = controller.state_message();
-        let mut rest = &message[5..];
-        let mut sizes = Vec::new();
-        while let Some((size, _)) = rest.split_first_chunk::<4>() {
-            let size = u32::from_be_bytes(*size) as usize;
-            sizes.push((rest[4], size));
-            rest = &rest[size..];
+        for (series, mode) in [(Series::Cb3, 46), (Series::E, 47)] {
+            let message = controller(series).state_message();
+            let mut rest = &message[5..];
+            let mut sizes = Vec::new();
+            while let Some((size, _)) = rest.split_first_chunk::<4>() {
+                let size = u32::from_be_bytes(*size) as usize;
+                sizes.push((rest[4], size));
+                rest = &rest[size..];
+            }
+            let published = [
+                (0, mode),
+                (1, 251),
+                (2, 37),
+                (3, 75),
+                (4, 101),
+                (5, 225),
+                (6, 445),
+            ];
+            assert_eq!(sizes, published, "{series:?}");
         }
-        let published = [
-            (0, 47),
-            (1, 251),
-            (2, 37),
-            (3, 75),
-            (4, 101),
-            (5, 225),
-            (6, 445),
-        ];
-        assert_eq!(sizes, published);
-        assert_eq!(controller.real_time_package().len(), REAL_TIME_SIZE);
+    }
+
+    #[test]
+    fn the_real_time_package_has_the_size_of_its_version_and_says_so() {
+        for (series, size) in [(Series::Cb3, 1108_u32), (Series::E, 1220)] {
+            let package = controller(series).real_time_package();
+            assert_eq!(package.len(), size as usize, "{series:?}");
+            assert_eq!(package[..4], size.to_be_bytes());
+        }
     }
 }
