@@ -61,4 +61,5 @@ pub mod registers;
 pub mod session;
 pub mod status;
 pub mod timing;
+pub mod urscript;
 pub mod wire;

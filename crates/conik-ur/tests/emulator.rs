@@ -208,11 +208,22 @@ fn a_driver_that_vanishes_leaves_an_arm_that_stops_by_itself() {
         .unwrap();
         let mut script = TcpStream::connect(("127.0.0.1", emulator.script_port())).unwrap();
         script.write_all(text.as_bytes()).unwrap();
-        wait_for(&emulator, "servo program started");
+        wait_for(&emulator, "program 'conik_servo' started");
         client.write_counter(1, 1);
         // No stop, no goodbye.
     }
-    wait_for(&emulator, "servo program ended: Starved");
+    wait_for(&emulator, "program 'conik_servo' ended");
+    let mut witness = RawClient::connect(&emulator);
+    witness.send(&[0, 5, b'V', 0, 2]);
+    assert_eq!(witness.package(), (b'V', vec![1]));
+    let mut outputs = 125.0_f64.to_be_bytes().to_vec();
+    outputs.extend(b"output_int_register_24");
+    witness.request(b'O', &outputs);
+    assert_eq!(witness.package(), (b'O', b"\x01INT32".to_vec()));
+    witness.request(b'S', &[]);
+    assert_eq!(witness.package(), (b'S', vec![1]));
+    // Phase 4: references stayed away.
+    assert_eq!(witness.package(), (b'U', vec![1, 0, 0, 0, 4]));
 }
 
 #[test]

@@ -391,7 +391,7 @@ fn a_program_whose_client_does_not_listen_ends_by_name_and_holds_nothing_up() {
     let mut script = connect(emulator.real_time_port());
     script.write_all(EXTERNAL_CONTROL.as_bytes()).unwrap();
     script.write_all(b"\n").unwrap();
-    wait_for(&emulator, "external control started");
+    wait_for(&emulator, "program 'externalControl' started");
     let mut dashboard = Dashboard::of(&emulator);
     assert_eq!(dashboard.ask("programState"), "PLAYING externalControl");
     wait_for(

@@ -140,7 +140,7 @@ fn play(controller: &mut Controller) -> bool {
         None => {
             let name = file_name(&controller.loaded).to_owned();
             let line = format!("program {name} started; it moves nothing");
-            controller.start(Running::Pendant(name), &line);
+            controller.begin(Running::Pendant(name), &line);
             true
         }
     }

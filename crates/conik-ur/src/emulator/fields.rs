@@ -28,6 +28,11 @@ pub(super) enum OutputField {
     TargetSpeedFraction,
     OutputInt(usize),
     OutputDouble(usize),
+    OutputBit(usize),
+    /// Bits 0 to 31, and 32 to 63.
+    OutputBits(usize),
+    Payload,
+    TcpOffset,
     /// Inputs can be read back.
     Input(InputField),
     /// One that is not simulated.
@@ -51,6 +56,9 @@ pub(super) const SLIDER: usize = 1;
 pub(super) const DIGITAL: [(usize, usize, u32); 3] = [(2, 3, 0), (4, 5, 8), (6, 7, 16)];
 pub(super) const ANALOG_MASK: usize = 8;
 pub(super) const ANALOG: [usize; 2] = [10, 11];
+
+/// Where the input bits below 64 stand in [`NAMED_INPUTS`], 32 in each.
+pub(super) const LOWER_BITS: [usize; 2] = [13, 14];
 
 /// Inputs that are no registers.
 pub(super) const NAMED_INPUTS: [(&str, Value); 15] = [
@@ -98,9 +106,14 @@ impl OutputField {
             "safety_status_bits" => Self::SafetyStatusBits,
             "speed_scaling" => Self::SpeedScaling,
             "target_speed_fraction" => Self::TargetSpeedFraction,
+            "output_bit_registers0_to_31" => Self::OutputBits(0),
+            "output_bit_registers32_to_63" => Self::OutputBits(1),
+            "payload" => Self::Payload,
+            "tcp_offset" => Self::TcpOffset,
             _ => {
                 return register(name, "output_int_register_")
                     .map(Self::OutputInt)
+                    .or_else(|| bit(name, "output_bit_register_").map(Self::OutputBit))
                     .or_else(|| register(name, "output_double_register_").map(Self::OutputDouble))
                     .or_else(|| InputField::from_name(name).map(Self::Input))
                     .or_else(|| Constant::from_name(name).map(Self::Constant));
@@ -114,6 +127,7 @@ impl OutputField {
             | Self::SpeedScaling
             | Self::TargetSpeedFraction
             | Self::AnalogOutput(_)
+            | Self::Payload
             | Self::OutputDouble(_) => FieldType::Double,
             Self::TargetQ
             | Self::TargetQd
@@ -123,12 +137,15 @@ impl OutputField {
             | Self::TargetTcpPose
             | Self::TargetTcpSpeed
             | Self::ActualTcpPose
-            | Self::ActualTcpSpeed => FieldType::Vector6d,
+            | Self::ActualTcpSpeed
+            | Self::TcpOffset => FieldType::Vector6d,
+            Self::OutputBit(_) => FieldType::Bool,
             Self::DigitalOutputs => FieldType::Uint64,
             Self::RobotMode | Self::SafetyMode | Self::OutputInt(_) => FieldType::Int32,
-            Self::RuntimeState | Self::RobotStatusBits | Self::SafetyStatusBits => {
-                FieldType::Uint32
-            }
+            Self::RuntimeState
+            | Self::RobotStatusBits
+            | Self::SafetyStatusBits
+            | Self::OutputBits(_) => FieldType::Uint32,
             Self::Input(field) => field.field_type(),
             Self::Constant(constant) => constant.value().field_type(),
         }
@@ -140,7 +157,7 @@ impl InputField {
         register(name, "input_int_register_")
             .map(Self::Int)
             .or_else(|| register(name, "input_double_register_").map(Self::Double))
-            .or_else(|| bit(name).map(Self::Bit))
+            .or_else(|| bit(name, "input_bit_register_").map(Self::Bit))
             .or_else(|| {
                 let place = NAMED_INPUTS.iter().position(|(known, _)| *known == name);
                 place.map(Self::Named)
@@ -157,11 +174,11 @@ impl InputField {
     }
 }
 
-/// The number of the bit register `name`, counted from 64.
-fn bit(name: &str) -> Option<usize> {
-    let number: u8 = name.strip_prefix("input_bit_register_")?.parse().ok()?;
+/// The number of the bit register `name`, if it is one of this kind.
+fn bit(name: &str, kind: &str) -> Option<usize> {
+    let number: u8 = name.strip_prefix(kind)?.parse().ok()?;
     let is_for_clients = BIT_REGISTERS.contains(&number);
-    is_for_clients.then(|| usize::from(number - BIT_REGISTERS.start))
+    is_for_clients.then_some(usize::from(number))
 }
 
 /// The number of the register `name`, if it is one of this kind.
@@ -185,6 +202,7 @@ mod tests {
             ("input_double_register_36", true),
             ("input_bit_register_63", false),
             ("input_bit_register_64", true),
+            ("output_bit_register_64", false),
             ("input_bit_register_127", true),
             ("input_bit_register_128", false),
             ("speed_slider_mask", true),
@@ -194,6 +212,8 @@ mod tests {
         }
         assert!(OutputField::from_name("input_int_register_24").is_some());
         assert!(OutputField::from_name("output_double_register_47").is_some());
+        assert!(OutputField::from_name("output_bit_register_127").is_some());
+        assert_eq!(NAMED_INPUTS[LOWER_BITS[1]].0, "input_bit_registers32_to_63");
         assert!(OutputField::from_name("joint_temperature").is_none());
     }
 }

@@ -3,23 +3,29 @@
 //! | file | what it holds |
 //! |---|---|
 //! | `config` | which controller is emulated, and what can happen to it |
-//! | `controller` | clock, safety, program and arm, without threads or sockets |
+//! | `controller` | clock and safety, without threads or sockets |
 //! | `outputs` | what the controller says of itself |
-//! | `servo_program` | the servo program as a state machine |
+//! | `arm` | the joints: how they follow, brake, or refuse to jump |
 //! | `registers`, `fields` | general-purpose registers; fields by name |
 //! | `rtde`, `script_port` | the two protocols, without sockets |
 //! | `state_message`, `dashboard` | the primary, real-time and dashboard ports, without sockets |
-//! | `running`, `ur_rtde_program`, `external_control` | programs of other clients that are recognised |
+//! | `running`, `programs` | the program that runs; how one begins and ends |
+//! | `script_program`, `watchdog` | interpreted programs, control cycle by control cycle |
+//! | `servo_program` | tests of the servo program, run by the interpreter |
+//! | `ur_rtde_program`, `external_control` | programs of other clients that are recognised |
+//! | `log` | what the controller has to say |
 //! | `power`, `faults` | what the pendant switches; what can be brought about |
 //! | `kinematics`, `not_simulated` | where the tool is; fields that read the same for ever |
 //! | `inbound`, `outbox` | what comes in on a connection, and what goes out |
 //! | `world` | what the threads share |
 //! | `server`, `clock` | the threads |
 //!
-//! It does not interpret `URScript`: it recognises the servo program of this crate, to the letter,
-//! the control program of `ur-rtde` by its registers and that of the maker's C++ client library by
-//! its sockets, and refuses any other. Its servo, limits and stops are assumed; see [`conik_sim::servo`].
+//! It interprets a subset of `URScript` ([`crate::urscript`]), in which the servo program of this
+//! crate is written, recognises the control program of `ur-rtde` by its registers and that of the
+//! maker's C++ client library by its sockets, and refuses any other. Its servo, limits and stops are
+//! assumed; see [`conik_sim::servo`].
 
+mod arm;
 mod clock;
 mod config;
 mod controller;
@@ -29,18 +35,23 @@ pub mod faults;
 mod fields;
 mod inbound;
 mod kinematics;
+mod log;
 mod not_simulated;
 mod outbox;
 mod outputs;
 mod power;
+mod programs;
 mod registers;
 mod rtde;
 mod running;
 mod script_port;
+mod script_program;
 mod server;
+#[cfg(test)]
 mod servo_program;
 mod state_message;
 mod ur_rtde_program;
+mod watchdog;
 mod world;
 
 pub use config::{EmulatorConfig, EmulatorError, Fault, Injection, Pace, Ports, Series};
@@ -221,7 +232,7 @@ impl Emulator {
     /// What has happened, a line each with the controller's time; old lines fall out.
     pub fn log_lines(&self) -> Vec<String> {
         let world = lock(&self.shared.world);
-        world.controller.log().cloned().collect()
+        world.controller.log.lines().cloned().collect()
     }
 }
 

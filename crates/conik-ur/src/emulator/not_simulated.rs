@@ -15,7 +15,7 @@ const SIX: Value = Value::Vector6d([0.0; 6]);
 const ZERO: Value = Value::Double(0.0);
 
 /// Every such field with its value.
-const FIELDS: [(&str, Value); 44] = [
+const FIELDS: [(&str, Value); 40] = [
     ("target_current", SIX),
     ("target_moment", SIX),
     ("actual_current", SIX),
@@ -51,15 +51,11 @@ const FIELDS: [(&str, Value); 44] = [
     ("tool_analog_input0", ZERO),
     ("tool_analog_input1", ZERO),
     ("tcp_force_scalar", ZERO),
-    ("tcp_offset", SIX),
     ("elbow_velocity", Value::Vector3d([0.0; 3])),
     ("elbow_position", Value::Vector3d([0.0; 3])),
-    ("payload", ZERO),
     ("payload_cog", Value::Vector3d([0.0; 3])),
     ("payload_inertia", SIX),
     ("script_control_line", Value::Uint32(0)),
-    ("output_bit_registers0_to_31", Value::Uint32(0)),
-    ("output_bit_registers32_to_63", Value::Uint32(0)),
 ];
 
 /// One of these fields.

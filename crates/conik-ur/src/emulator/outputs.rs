@@ -1,6 +1,6 @@
 //! What the emulated controller says of itself, field by field.
 
-use super::controller::{Controller, Safety, six};
+use super::controller::{Controller, Safety};
 use super::fields::OutputField;
 use super::kinematics;
 use super::power::Power;
@@ -12,19 +12,19 @@ impl Controller {
     pub(super) fn output(&self, field: OutputField) -> Value {
         match field {
             OutputField::Timestamp => Value::Double(self.timestamp()),
-            OutputField::TargetQ => Value::Vector6d(six(self.servo.q())),
+            OutputField::TargetQ => Value::Vector6d(self.arm.q()),
             OutputField::TargetQd => Value::Vector6d(self.target_qd()),
-            OutputField::TargetQdd => Value::Vector6d(six(self.servo.qdd())),
-            OutputField::ActualQ => Value::Vector6d(six(&self.actual.0)),
-            OutputField::ActualQd => Value::Vector6d(six(&self.actual.1)),
-            OutputField::TargetTcpPose => Value::Vector6d(kinematics::pose(&six(self.servo.q()))),
+            OutputField::TargetQdd => Value::Vector6d(self.arm.qdd()),
+            OutputField::ActualQ => Value::Vector6d(self.arm.actual_q()),
+            OutputField::ActualQd => Value::Vector6d(self.arm.actual_qd()),
+            OutputField::TargetTcpPose => Value::Vector6d(kinematics::pose(&self.arm.q())),
             OutputField::TargetTcpSpeed => {
-                Value::Vector6d(kinematics::twist(&six(self.servo.q()), &self.target_qd()))
+                Value::Vector6d(kinematics::twist(&self.arm.q(), &self.target_qd()))
             }
-            OutputField::ActualTcpPose => Value::Vector6d(kinematics::pose(&six(&self.actual.0))),
+            OutputField::ActualTcpPose => Value::Vector6d(kinematics::pose(&self.arm.actual_q())),
             OutputField::ActualTcpSpeed => Value::Vector6d(kinematics::twist(
-                &six(&self.actual.0),
-                &six(&self.actual.1),
+                &self.arm.actual_q(),
+                &self.arm.actual_qd(),
             )),
             OutputField::DigitalOutputs => Value::Uint64(self.digital_outputs()),
             OutputField::AnalogOutput(index) => Value::Double(self.analog_output(index)),
@@ -47,8 +47,13 @@ impl Controller {
                 Value::Double(self.speed_scaling())
             }
             OutputField::OutputInt(register) => Value::Int32(self.registers.output_int(register)),
-            // No program that runs here writes one.
-            OutputField::OutputDouble(_) => Value::Double(0.0),
+            OutputField::OutputDouble(register) => {
+                Value::Double(self.registers.output_double(register))
+            }
+            OutputField::OutputBit(register) => Value::Bool(self.registers.output_bit(register)),
+            OutputField::OutputBits(word) => Value::Uint32(self.registers.output_bits(word)),
+            OutputField::Payload => Value::Double(self.mounted.payload_kg),
+            OutputField::TcpOffset => Value::Vector6d(self.mounted.tcp),
             OutputField::Input(field) => self.registers.input(field),
             OutputField::Constant(constant) => constant.value(),
         }

@@ -1,251 +1,235 @@
-//! The servo program as the emulated controller runs it: `servo.script`, line by line, as a state
-//! machine. The script decides; where the two differ, this file is wrong.
+//! The servo program (`servo.script`), run by the interpreter: what it does with its registers.
 
+use super::arm::{Arm, Motion};
+use super::config::{EmulatorConfig, Series};
+use super::fields::InputField;
+use super::log::Log;
 use super::registers::Registers;
-use crate::program::ServoProgram;
+use super::script_program::{Around, Mounted, ScriptProgram};
+use super::watchdog::{Bite, Watchdogs};
+use crate::program::tests::PROGRAM;
+use crate::program::{Pose, ServoProgram};
 use crate::registers::{Command, JOINTS, Phase};
+use crate::urscript::{Program, WatchdogAction};
+use crate::wire::Value;
+use conik::JointVec;
 
-/// What the program has the joints do.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Motion {
-    /// Nothing: stand, or come to rest.
-    Rest,
-    /// `servoj` with this target [rad].
-    Servo([f64; JOINTS]),
-    /// `servoj` with its parameters given anew: target [rad], lookahead [s] and gain.
-    ServoWith {
-        target: [f64; JOINTS],
-        lookahead_s: f64,
-        gain: f64,
-    },
-    /// `stopj` with this deceleration [rad/s²].
-    Brake(f64),
+/// The program with all that it finds around it; the arm stands still.
+struct Run {
+    program: ScriptProgram,
+    registers: Registers,
+    arm: Arm,
+    watchdogs: Watchdogs,
+    mounted: Mounted,
+    cycle_s: f64,
+    cycles: u64,
 }
 
-/// The servo program while it runs.
-#[derive(Clone, Debug)]
-pub(super) struct RunningProgram {
-    program: ServoProgram,
-    phase: Phase,
-    /// Control cycles that one turn of the program's loop takes.
-    cycles_per_turn: u64,
-    cycles_to_turn: u64,
-    turns_waited: u64,
-    counter: i32,
-    q: [f64; JOINTS],
-    qd: [f64; JOINTS],
-    missed: u32,
-    motion: Motion,
-}
-
-impl RunningProgram {
-    /// The program's first lines, up to where it waits.
-    pub(super) fn begin(program: ServoProgram, cycle_s: f64, registers: &mut Registers) -> Self {
-        let base = program.registers.first();
-        registers.write_output_int(base, Phase::Waiting as i32);
-        registers.write_output_int(base + 1, program.session);
-        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)] // At least 1.
-        let cycles_per_turn = (program.cycle_s / cycle_s).round().max(1.0) as u64;
-        Self {
-            program,
-            phase: Phase::Waiting,
-            cycles_per_turn,
-            cycles_to_turn: 0,
-            turns_waited: 0,
-            counter: registers.input_int(base),
-            q: [0.0; JOINTS],
-            qd: [0.0; JOINTS],
-            missed: 0,
-            motion: Motion::Rest,
-        }
+impl Run {
+    fn of(program: &ServoProgram, cycle_s: f64) -> Self {
+        let config = EmulatorConfig::new(Series::Cb3, JointVec::zeros(JOINTS));
+        let program = Program::parse(&program.text().unwrap()).unwrap();
+        assert_eq!(program.name(), ServoProgram::NAME);
+        let mut run = Self {
+            program: ScriptProgram::new(program),
+            registers: Registers::new(),
+            arm: Arm::new(&config).unwrap(),
+            watchdogs: Watchdogs::default(),
+            mounted: Mounted::default(),
+            cycle_s,
+            cycles: 0,
+        };
+        // Up to where it waits for the first reference.
+        assert_eq!(run.cycle(), Motion::Rest);
+        run
     }
 
-    pub(super) fn program(&self) -> &ServoProgram {
-        &self.program
-    }
-
-    pub(super) fn phase(&self) -> Phase {
-        self.phase
-    }
-
-    /// Whether the last line is reached: nothing is left but to come to rest.
-    pub(super) fn is_ending(&self) -> bool {
-        !matches!(self.phase, Phase::Waiting | Phase::Servoing)
-    }
-
-    /// Control cycles without a write to the counter after which the watchdog bites; none in the
-    /// phases in which it is off.
-    pub(super) fn watchdog_cycles(&self, rate_hz: f64) -> Option<f64> {
-        (self.phase == Phase::Servoing).then(|| rate_hz / self.program.watchdog_hz)
-    }
-
-    /// One control cycle of the program.
-    pub(super) fn cycle(&mut self, registers: &mut Registers) -> Motion {
-        if self.cycles_to_turn == 0 {
-            self.cycles_to_turn = self.cycles_per_turn;
-            self.turn(registers);
-        }
-        self.cycles_to_turn -= 1;
-        self.motion
-    }
-
-    /// One turn of the program's loop.
-    fn turn(&mut self, registers: &mut Registers) {
-        if self.is_ending() {
-            return;
-        }
-        let before = self.phase;
-        if self.phase == Phase::Waiting {
-            self.wait(registers);
-        }
-        if self.phase == Phase::Servoing {
-            self.servo(registers);
-        }
-        if self.is_ending() && before == Phase::Servoing {
-            self.motion = Motion::Brake(self.program.stop_deceleration);
-        }
-        registers.write_output_int(self.program.registers.first(), self.phase as i32);
-    }
-
-    fn wait(&mut self, registers: &Registers) {
-        let base = self.program.registers.first();
-        let command = registers.input_int(base + 1);
-        let is_new = registers.input_int(base) != self.counter;
-        let waited = self.turns_waited as f64 * self.program.cycle_s;
-        if command == Command::Stop as i32 {
-            self.phase = Phase::Stopped;
-        } else if command == Command::Servo as i32 && is_new {
-            self.phase = Phase::Servoing;
-        } else if waited > self.program.patience_s {
-            self.phase = Phase::GaveUp;
-        } else {
-            self.turns_waited += 1;
-        }
-    }
-
-    fn servo(&mut self, registers: &Registers) {
-        let base = self.program.registers.first();
-        let newest = registers.input_int(base);
-        if registers.input_int(base + 1) != Command::Servo as i32 {
-            self.phase = Phase::Stopped;
-            return;
-        }
-        if newest == self.counter {
-            self.missed += 1;
-            if self.missed > self.program.extrapolated_cycles {
-                self.phase = Phase::Starved;
-                return;
-            }
-        } else {
-            self.counter = newest;
-            self.missed = 0;
-            self.q = registers.six_doubles(base);
-            self.qd = registers.six_doubles(base + 6);
-        }
-        let ahead = f64::from(self.missed) * self.program.cycle_s;
-        self.motion = Motion::Servo(std::array::from_fn(|joint| {
-            self.q[joint] + self.qd[joint] * ahead
-        }));
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::emulator::fields::InputField;
-    use crate::program::tests::PROGRAM;
-    use crate::wire::Value;
-
-    fn begun(registers: &mut Registers, cycle_s: f64) -> RunningProgram {
+    /// Bridges three cycles and waits for 0.1 s.
+    fn impatient(cycle_s: f64) -> Self {
         let program = ServoProgram {
             extrapolated_cycles: 3,
             patience_s: 0.1,
             ..PROGRAM
         };
-        RunningProgram::begin(program, cycle_s, registers)
+        Self::of(&program, cycle_s)
     }
 
-    fn give(registers: &mut Registers, counter: i32, command: Command, q: f64, qd: f64) {
-        registers.write_input(InputField::Int(24), Value::Int32(counter), 0);
-        registers.write_input(InputField::Int(25), Value::Int32(command as i32), 0);
+    fn cycle(&mut self) -> Motion {
+        self.cycles += 1;
+        let mut around = Around {
+            registers: &mut self.registers,
+            arm: &self.arm,
+            watchdogs: &mut self.watchdogs,
+            mounted: &mut self.mounted,
+            log: &mut Log::default(),
+            time_s: 0.0,
+            cycle_s: self.cycle_s,
+            slider: 1.0,
+        };
+        self.program.cycle(&mut around).unwrap()
+    }
+
+    fn give(&mut self, counter: i32, command: Command, q: f64, qd: f64) {
+        let mut write = |field, value| self.registers.write_input(field, value, self.cycles);
+        write(InputField::Int(24), Value::Int32(counter));
+        write(InputField::Int(25), Value::Int32(command as i32));
         for joint in 24..30 {
-            registers.write_input(InputField::Double(joint), Value::Double(q), 0);
-            registers.write_input(InputField::Double(joint + 6), Value::Double(qd), 0);
+            write(InputField::Double(joint), Value::Double(q));
+            write(InputField::Double(joint + 6), Value::Double(qd));
         }
     }
 
-    fn target(motion: Motion) -> f64 {
-        match motion {
-            Motion::Servo(q) => q[3],
+    /// The next cycle's target of the fourth joint.
+    fn target(&mut self) -> f64 {
+        match self.cycle() {
+            Motion::Servo { target, .. } => target[3],
             other => panic!("{other:?} instead of servoj"),
         }
     }
 
-    #[test]
-    fn nothing_moves_before_the_first_reference() {
-        let mut registers = Registers::new();
-        let mut running = begun(&mut registers, 0.008);
-        assert_eq!(registers.output_int(25), PROGRAM.session);
-        for _ in 0..5 {
-            assert_eq!(running.cycle(&mut registers), Motion::Rest);
-        }
-        give(&mut registers, 0, Command::Servo, 1.0, 0.0);
-        assert_eq!(running.cycle(&mut registers), Motion::Rest, "old counter");
-        give(&mut registers, 1, Command::Idle, 1.0, 0.0);
-        assert_eq!(running.cycle(&mut registers), Motion::Rest, "idle");
-        give(&mut registers, 1, Command::Servo, 1.0, 0.0);
-        assert_eq!(target(running.cycle(&mut registers)), 1.0);
-        assert_eq!(registers.output_int(24), Phase::Servoing as i32);
+    fn phase(&self) -> Option<Phase> {
+        Phase::from_number(self.registers.output_int(24))
     }
 
-    #[test]
-    fn missing_references_are_bridged_three_times_and_then_the_arm_stops() {
-        let mut registers = Registers::new();
-        let mut running = begun(&mut registers, 0.008);
-        give(&mut registers, 1, Command::Servo, 1.0, 0.5);
-        let targets: Vec<f64> = (0..4)
-            .map(|_| target(running.cycle(&mut registers)))
-            .collect();
-        assert_eq!(targets, [1.0, 1.004, 1.008, 1.012]);
-        assert_eq!(running.cycle(&mut registers), Motion::Brake(4.0));
-        assert_eq!(registers.output_int(24), Phase::Starved as i32);
-        give(&mut registers, 2, Command::Servo, 1.0, 0.5);
-        assert_eq!(
-            running.cycle(&mut registers),
-            Motion::Brake(4.0),
-            "no motion after a stop"
+    fn bite(&self, silent_cycles: u64) -> Option<Bite> {
+        self.watchdogs
+            .bite(&self.registers, self.cycles + silent_cycles)
+    }
+}
+
+#[test]
+fn nothing_moves_before_the_first_reference() {
+    let mut run = Run::impatient(0.008);
+    assert_eq!(run.registers.output_int(25), PROGRAM.session);
+    assert_eq!(run.phase(), Some(Phase::Waiting));
+    for _ in 0..5 {
+        assert_eq!(run.cycle(), Motion::Rest);
+    }
+    run.give(0, Command::Servo, 1.0, 0.0);
+    assert_eq!(run.cycle(), Motion::Rest, "old counter");
+    run.give(1, Command::Idle, 1.0, 0.0);
+    assert_eq!(run.cycle(), Motion::Rest, "idle");
+    run.give(1, Command::Servo, 1.0, 0.0);
+    assert_eq!(run.target(), 1.0);
+    assert_eq!(run.phase(), Some(Phase::Servoing));
+}
+
+#[test]
+fn each_reference_is_followed_in_the_cycle_in_which_it_is_there() {
+    let mut run = Run::impatient(0.008);
+    for counter in 1..50 {
+        let q = 0.01 * f64::from(counter);
+        run.give(counter, Command::Servo, q, 0.5);
+        assert_eq!(run.target(), q);
+    }
+}
+
+#[test]
+fn servoj_is_given_the_lookahead_and_the_gain_asked_for() {
+    let asked = ServoProgram {
+        lookahead_s: 0.05,
+        gain: 750.0,
+        ..PROGRAM
+    };
+    let mut run = Run::of(&asked, 0.008);
+    run.give(1, Command::Servo, 0.0, 0.0);
+    let expected = Motion::Servo {
+        target: [0.0; JOINTS],
+        lookahead_s: 0.05,
+        gain: 750.0,
+    };
+    assert_eq!(run.cycle(), expected);
+}
+
+#[test]
+fn missing_references_are_bridged_three_times_and_then_the_arm_stops() {
+    let mut run = Run::impatient(0.008);
+    run.give(1, Command::Servo, 1.0, 0.5);
+    let targets: Vec<f64> = (0..4).map(|_| run.target()).collect();
+    assert_eq!(targets, [1.0, 1.004, 1.008, 1.012]);
+    assert_eq!(run.cycle(), Motion::Brake(4.0));
+    assert_eq!(run.phase(), Some(Phase::Starved));
+    for counter in 2..10 {
+        run.give(counter, Command::Servo, 1.0, 0.5);
+        let motion = run.cycle();
+        assert!(
+            !matches!(motion, Motion::Servo { .. }),
+            "motion after a stop"
         );
     }
+    assert!(run.program.is_over());
+}
 
-    #[test]
-    fn the_command_to_stop_brakes() {
-        let mut registers = Registers::new();
-        let mut running = begun(&mut registers, 0.008);
-        give(&mut registers, 1, Command::Servo, 1.0, 0.5);
-        running.cycle(&mut registers);
-        give(&mut registers, 2, Command::Stop, 2.0, 0.5);
-        assert_eq!(running.cycle(&mut registers), Motion::Brake(4.0));
-        assert!(running.is_ending());
-    }
+#[test]
+fn the_command_to_stop_brakes() {
+    let mut run = Run::impatient(0.008);
+    run.give(1, Command::Servo, 1.0, 0.5);
+    run.target();
+    run.give(2, Command::Stop, 2.0, 0.5);
+    assert_eq!(run.cycle(), Motion::Brake(4.0));
+    assert_eq!(run.phase(), Some(Phase::Stopped));
+    run.cycle();
+    assert!(run.program.is_over());
+}
 
-    #[test]
-    fn a_slow_reference_holds_for_all_its_control_cycles() {
-        let mut registers = Registers::new();
-        let mut running = begun(&mut registers, 0.002);
-        give(&mut registers, 1, Command::Servo, 1.0, 0.5);
-        let targets: Vec<f64> = (0..8)
-            .map(|_| target(running.cycle(&mut registers)))
-            .collect();
-        assert_eq!(targets, [1.0, 1.0, 1.0, 1.0, 1.004, 1.004, 1.004, 1.004]);
-    }
+#[test]
+fn the_command_to_stop_ends_a_program_that_still_waits_without_motion() {
+    let mut run = Run::impatient(0.008);
+    run.give(1, Command::Stop, 2.0, 0.5);
+    assert_eq!(run.cycle(), Motion::Rest);
+    assert!(run.program.is_over());
+    assert_eq!(run.phase(), Some(Phase::Stopped));
+}
 
-    #[test]
-    fn a_program_that_nobody_uses_ends_without_motion() {
-        let mut registers = Registers::new();
-        let mut running = begun(&mut registers, 0.008);
-        for _ in 0..20 {
-            assert_eq!(running.cycle(&mut registers), Motion::Rest);
-        }
-        assert_eq!(registers.output_int(24), Phase::GaveUp as i32);
+#[test]
+fn a_slow_reference_holds_for_all_its_control_cycles() {
+    let mut run = Run::impatient(0.002);
+    run.give(1, Command::Servo, 1.0, 0.5);
+    // It still sleeps for a turn of its loop, four control cycles.
+    while run.cycle() == Motion::Rest {}
+    let targets: Vec<f64> = (0..7).map(|_| run.target()).collect();
+    assert_eq!(targets, [1.0, 1.0, 1.0, 1.004, 1.004, 1.004, 1.004]);
+}
+
+#[test]
+fn a_program_that_nobody_uses_ends_without_motion() {
+    let mut run = Run::impatient(0.008);
+    for _ in 0..20 {
+        assert_eq!(run.cycle(), Motion::Rest);
     }
+    assert_eq!(run.phase(), Some(Phase::GaveUp));
+    assert!(run.program.is_over());
+}
+
+#[test]
+fn the_watchdog_watches_the_counter_while_references_are_followed_and_no_longer() {
+    let mut run = Run::impatient(0.008);
+    assert_eq!(run.bite(1000), None, "armed before the first reference");
+    run.give(1, Command::Servo, 1.0, 0.5);
+    run.target();
+    // 10.5 Hz at 125 Hz: not quite twelve cycles.
+    assert_eq!(run.bite(10), None);
+    let bite = Bite {
+        action: WatchdogAction::Stop,
+        name: "input_int_register_24".to_owned(),
+    };
+    assert_eq!(run.bite(11), Some(bite));
+    run.give(2, Command::Stop, 1.0, 0.5);
+    assert_eq!(run.cycle(), Motion::Brake(4.0));
+    assert_eq!(run.bite(1000), None, "still armed while the arm is stopped");
+}
+
+#[test]
+fn payload_and_tool_are_set_only_if_they_are_given() {
+    let given = ServoProgram {
+        payload_kg: Some(1.5),
+        tcp: Some(Pose([0.0, 0.0, 0.12, 0.0, 1.25, 0.0])),
+        ..PROGRAM
+    };
+    let with_tool = Mounted {
+        payload_kg: 1.5,
+        tcp: [0.0, 0.0, 0.12, 0.0, 1.25, 0.0],
+    };
+    assert_eq!(Run::of(&given, 0.008).mounted, with_tool);
+    assert_eq!(Run::of(&PROGRAM, 0.008).mounted, Mounted::default());
 }

@@ -4,7 +4,7 @@
 //! message holds sub-packages of the same form.
 
 use super::config::Series;
-use super::controller::{Controller, six};
+use super::controller::Controller;
 use super::kinematics::{self, LENGTHS, OFFSETS, TWISTS};
 use super::power::Power;
 use crate::registers::JOINTS;
@@ -129,9 +129,9 @@ impl Controller {
         let mut bytes = Bytes::default();
         for joint in 0..JOINTS {
             bytes.doubles(&[
-                self.actual.0[joint],
-                self.servo.q()[joint],
-                self.actual.1[joint],
+                self.arm.actual_q()[joint],
+                self.arm.q()[joint],
+                self.arm.actual_qd()[joint],
             ]);
             // Current, voltage and two temperatures are not simulated.
             bytes.float(0.0).float(48.0).float(25.0).float(25.0);
@@ -142,13 +142,13 @@ impl Controller {
 
     fn cartesian_data(&self) -> Bytes {
         let mut bytes = Bytes::default();
-        bytes.doubles(&kinematics::pose(&six(&self.actual.0)));
+        bytes.doubles(&kinematics::pose(&self.arm.actual_q()));
         bytes.doubles(&[0.0; 6]);
         bytes
     }
 
     fn configuration_data(&self) -> Bytes {
-        let model = self.servo.model();
+        let model = self.arm.model();
         let full_turn = std::f64::consts::TAU;
         let mut bytes = Bytes::default();
         for _ in 0..JOINTS {
@@ -167,8 +167,8 @@ impl Controller {
 
     /// The package of the real-time port.
     pub(super) fn real_time_package(&self) -> Vec<u8> {
-        let (q, qd, qdd) = (six(self.servo.q()), self.target_qd(), six(self.servo.qdd()));
-        let (actual_q, actual_qd) = (six(&self.actual.0), six(&self.actual.1));
+        let (q, qd, qdd) = (self.arm.q(), self.target_qd(), self.arm.qdd());
+        let (actual_q, actual_qd) = (self.arm.actual_q(), self.arm.actual_qd());
         let (pose, speed) = (
             kinematics::pose(&actual_q),
             kinematics::twist(&actual_q, &actual_qd),

@@ -5,9 +5,9 @@
 //! `servoJ`, `servoStop` and the end of the program are emulated. Any other command ends the
 //! program with a line that names it, so that no client takes a motion for done that was not.
 
+use super::arm::Motion;
 use super::fields::InputField;
 use super::registers::Registers;
-use super::servo_program::Motion;
 use crate::registers::JOINTS;
 use crate::wire::Value;
 
@@ -65,7 +65,7 @@ impl UrRtdeProgram {
         if self.ending.is_some() {
             return self.motion;
         }
-        let command = registers.input_int(self.first_int);
+        let command = registers.input_int(usize::from(self.first_int));
         let answer = match command {
             NOTHING => READY,
             SERVO_J => {
@@ -91,7 +91,7 @@ impl UrRtdeProgram {
             }
         };
         self.answered = command;
-        registers.write_output_int(self.first_int, answer);
+        registers.write_output_int(usize::from(self.first_int), answer);
         self.motion
     }
 
@@ -102,7 +102,7 @@ impl UrRtdeProgram {
 
     /// `servoj` with the newest parameters, brought into the range that it accepts.
     fn servo(&self, registers: &Registers) -> Motion {
-        Motion::ServoWith {
+        Motion::Servo {
             target: std::array::from_fn(|joint| self.double(registers, joint)),
             lookahead_s: self.double(registers, JOINTS + 3).clamp(0.03, 0.2),
             gain: self.double(registers, JOINTS + 4).clamp(100.0, 2000.0),
@@ -154,7 +154,7 @@ mod tests {
         assert_eq!(registers.output_int(24), READY);
         registers.write_input(InputField::Double(26), Value::Double(0.5), 0);
         command(&mut registers, SERVO_J);
-        let Motion::ServoWith { target, .. } = program.cycle(&mut registers) else {
+        let Motion::Servo { target, .. } = program.cycle(&mut registers) else {
             panic!("no servoj");
         };
         assert_eq!(target, [0.0, 0.0, 0.5, 0.0, 0.0, 0.0]);

@@ -4,6 +4,7 @@ use super::config::{Fault, Pace};
 use super::controller::Controller;
 use super::faults::Network;
 use super::fields::InputField;
+use super::log::Message;
 use super::outbox::Outbox;
 use super::rtde::{Claims, RtdeClient};
 use super::running::Running;
@@ -222,6 +223,19 @@ impl World {
         }
     }
 
+    /// Hands on what the controller has to say to everyone.
+    fn tell_clients(&mut self) {
+        for message in self.controller.log.take_messages() {
+            let text = TextMessage::new(TextLevel::Error, "emulator", &message.text);
+            let reply = Reply::Text(text);
+            // One that has not begun to listen has no version of the protocol yet.
+            let listening = |client: &&Client| client.rtde.is_started() && !client.is_silent;
+            for client in self.clients.values().filter(listening) {
+                client.answer(&reply);
+            }
+        }
+    }
+
     /// Forgets a connection and frees the inputs that it wrote.
     pub(super) fn remove(&mut self, id: u64) {
         self.connections.remove(&id);
@@ -285,6 +299,7 @@ impl World {
     /// One control cycle, and the packages that are due after it.
     pub(super) fn cycle(&mut self, pace: Pace) {
         self.controller.cycle();
+        self.tell_clients();
         let runs = self.controller.program_runs();
         let ended = self.program_ran && !runs;
         self.program_ran = runs;
@@ -377,26 +392,32 @@ impl Shared {
 
     /// Acts on a program of a client of the script port.
     pub(super) fn run_script(&self, text: &str) {
+        let hindrance = {
+            let world = &mut *lock(&self.world);
+            if run_command(&mut world.controller, text.trim()) || world.is_closing {
+                return;
+            }
+            world.controller.why_no_program()
+        };
+        // Read while the clock goes on, then begun.
+        let program = match hindrance {
+            Some(reason) => Err(reason.into()),
+            None => Running::read(text),
+        };
         let world = &mut *lock(&self.world);
-        if run_command(&mut world.controller, text.trim()) {
-            return;
-        }
         if world.is_closing {
             return;
         }
-        let taken = world.controller.upload(text);
+        let started = program.and_then(|program| Ok(world.controller.start(program)?));
         world.dial();
-        if let Err(fault) = taken {
+        if let Err(refusal) = started {
             let name = script_port::name_of(text);
-            let line = format!("program '{name}' refused: {fault}");
-            world.controller.note(&line);
-            let reply = Reply::Text(TextMessage::new(TextLevel::Error, "emulator", &line));
-            // One that has not begun to listen has no version of the protocol yet.
-            let listening = |client: &&Client| client.rtde.is_started() && !client.is_silent;
-            for client in world.clients.values().filter(listening) {
-                client.answer(&reply);
-            }
+            world.controller.tell(Message {
+                text: format!("program '{name}' refused: {}", refusal.reason),
+                script_line: refusal.script_line,
+            });
         }
+        world.tell_clients();
     }
 
     /// Waits, at most for `time`, until something happens.

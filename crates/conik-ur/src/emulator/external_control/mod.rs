@@ -10,8 +10,8 @@
 mod calls;
 mod text;
 
+use super::arm::Motion;
 use super::running::ArmState;
-use super::servo_program::Motion;
 use crate::registers::JOINTS;
 pub(super) use calls::Calls;
 use calls::{Line, Purpose};
@@ -291,7 +291,7 @@ impl ExternalControl {
             }
         }
         self.is_fresh = false;
-        self.motion = Motion::ServoWith {
+        self.motion = Motion::Servo {
             target: self.setpoint,
             lookahead_s: self.parameters.lookahead_s,
             gain: self.parameters.gain,

@@ -68,7 +68,7 @@ fn until<T>(
 
 fn target(motion: Motion) -> Option<f64> {
     match motion {
-        Motion::ServoWith {
+        Motion::Servo {
             target,
             lookahead_s,
             gain,
