@@ -208,18 +208,13 @@ fn a_driver_that_vanishes_leaves_an_arm_that_stops_by_itself() {
         .unwrap();
         let mut script = TcpStream::connect(("127.0.0.1", emulator.script_port())).unwrap();
         script.write_all(text.as_bytes()).unwrap();
-        wait_for(&emulator, "program 'conik_servo' started");
+        client.idle_until(1);
         client.write_counter(1, 1);
         // No stop, no goodbye.
     }
     wait_for(&emulator, "program 'conik_servo' ended");
     let mut witness = RawClient::connect(&emulator);
-    witness.send(&[0, 5, b'V', 0, 2]);
-    assert_eq!(witness.package(), (b'V', vec![1]));
-    let mut outputs = 125.0_f64.to_be_bytes().to_vec();
-    outputs.extend(b"output_int_register_24");
-    witness.request(b'O', &outputs);
-    assert_eq!(witness.package(), (b'O', b"\x01INT32".to_vec()));
+    witness.ask_for_phase();
     witness.request(b'S', &[]);
     assert_eq!(witness.package(), (b'S', vec![1]));
     // Phase 4: references stayed away.
@@ -478,18 +473,33 @@ impl RawClient {
         }
     }
 
-    /// Claims the counter and the command, asks for the timestamp, and starts.
+    /// Claims the counter and the command, asks for the servo program's phase, and starts.
     fn claim_and_start(&mut self) {
-        self.send(&[0, 5, b'V', 0, 2]);
-        assert_eq!(self.package(), (b'V', vec![1]));
-        let mut outputs = 125.0_f64.to_be_bytes().to_vec();
-        outputs.extend(b"timestamp");
-        self.request(b'O', &outputs);
-        assert_eq!(self.package(), (b'O', b"\x01DOUBLE".to_vec()));
+        self.ask_for_phase();
         self.request(b'I', b"input_int_register_24,input_int_register_25,");
         assert_eq!(self.package(), (b'I', b"\x01INT32,INT32".to_vec()));
         self.request(b'S', &[]);
         assert_eq!(self.package(), (b'S', vec![1]));
+    }
+
+    fn ask_for_phase(&mut self) {
+        self.send(&[0, 5, b'V', 0, 2]);
+        assert_eq!(self.package(), (b'V', vec![1]));
+        let mut outputs = 125.0_f64.to_be_bytes().to_vec();
+        outputs.extend(b"output_int_register_24");
+        self.request(b'O', &outputs);
+        assert_eq!(self.package(), (b'O', b"\x01INT32".to_vec()));
+    }
+
+    /// Answers each package with an idle command until the servo program is in this phase.
+    fn idle_until(&mut self, phase: u8) {
+        for _ in 0..10_000 {
+            if self.package() == (b'U', vec![1, 0, 0, 0, phase]) {
+                return;
+            }
+            self.write_counter(0, 0);
+        }
+        panic!("phase {phase} never came");
     }
 
     fn write_counter(&mut self, counter: i32, command: i32) {
