@@ -12,6 +12,8 @@ fn config(stub: &Stub) -> UrConfig {
     UrConfig {
         rtde_port: stub.rtde_port,
         script_port: stub.script_port,
+        // Nobody listens there.
+        dashboard_port: 1,
         ..UrConfig::new("127.0.0.1")
     }
 }
@@ -30,6 +32,7 @@ fn a_preflight_measures_and_writes_nothing() {
     assert_eq!(found.bridged_cycles, 5);
     assert_eq!(found.q, q);
     assert_eq!(found.hindrance, None);
+    assert_eq!(found.identity.unwrap_err().name, "connect-failed");
     assert!(found.timing.packages > 2);
     assert_eq!(found.timing.repeated, 0);
     // Whatever was not read one by one was passed over, and nothing else is missing.

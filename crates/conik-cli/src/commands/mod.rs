@@ -14,6 +14,7 @@ use std::io::{self, Write};
 use std::process::ExitCode;
 
 use crate::failure::Failure;
+use crate::layout::wrapped;
 
 /// Prints to standard output. A reader that went away (`conik schema | head`) is no failure.
 fn print(text: &str) -> Result<ExitCode, Failure> {
@@ -24,4 +25,10 @@ fn print(text: &str) -> Result<ExitCode, Failure> {
         ))),
         _ => Ok(ExitCode::SUCCESS),
     }
+}
+
+/// Says on standard error what is no failure but should be known.
+fn warn(text: &str) {
+    // Nobody reading is no reason to stop.
+    let _ = io::stderr().write_all(wrapped("", &format!("warning: {text}")).as_bytes());
 }

@@ -4,6 +4,7 @@ use std::process::ExitCode;
 use std::thread;
 
 use conik_ur::driver::UrConfig;
+use conik_ur::driver::identity::not_asked;
 use conik_ur::driver::preflight::{Preflight, Verdict, preflight as look};
 use conik_ur::realtime::Realtime;
 use conik_ur::timing::{Spread, Timing};
@@ -59,9 +60,10 @@ fn in_words(host: &str, realtime: &Realtime, found: &Preflight) -> String {
         Some(fault) => format!("no run could start: {fault}"),
     };
     let head = format!(
-        "{host}: UR {}, software {}\n{}joints at {} rad\n{}",
-        found.series,
+        "{host}: {}, software {}\n{}{}joints at {} rad\n{}",
+        name(found),
         found.version,
+        dashboard(found),
         wrapped("", &ready),
         pose.join(", "),
         wrapped("", &format!("this thread: {realtime}")),
@@ -82,6 +84,27 @@ fn in_words(host: &str, realtime: &Realtime, found: &Preflight) -> String {
         histogram(&found.timing),
         advice(found, realtime)
     )
+}
+
+/// `UR5 (CB3)`; without an answer from the dashboard `UR CB3`.
+fn name(found: &Preflight) -> String {
+    let model = found.identity.as_ref().ok();
+    match model.and_then(|identity| identity.model.as_deref()) {
+        Some(model) => format!("{model} ({})", found.series),
+        None => format!("UR {}", found.series),
+    }
+}
+
+/// What the dashboard says besides; nothing where a CB3 has nothing to say.
+fn dashboard(found: &Preflight) -> String {
+    match &found.identity {
+        Ok(identity) => match identity.in_remote_control {
+            Some(true) => "in remote control\n".to_owned(),
+            Some(false) => "in local control\n".to_owned(),
+            None => String::new(),
+        },
+        Err(fault) => wrapped("", &not_asked(fault)),
+    }
 }
 
 fn row(name: &str, spread: &Spread) -> [String; 6] {

@@ -18,7 +18,7 @@ use conik_sim::experiment::Experiment;
 use conik_sim::log::{LogWriteError, LogWriter};
 use conik_sim::record::Record;
 use conik_sim::run::{self, Ended};
-use conik_sim::scenario::Scenario;
+use conik_sim::scenario::{Scenario, UrModel};
 use conik_sim::summarise::Summariser;
 use conik_sim::summary::{Outcome, Settings, Summary};
 use conik_ur::driver::recover::power_on;
@@ -192,8 +192,8 @@ fn arm(
             let mut config = emulator.driver_config();
             if let Some(settings) = &scenario.ur {
                 config.apply(settings);
-                // It is whatever the rate needs.
-                config.series = None;
+                // It is whatever the scenario needs.
+                (config.series, config.model) = (None, None);
             }
             config.dry_run = arguments.dry_run;
             (Box::new(UrArm::new(config)), Some(emulator))
@@ -220,6 +220,7 @@ fn arm(
             if let Some(settings) = &scenario.ur {
                 config.apply(settings);
             }
+            config.robot = UrModel::in_name(&scenario.robot.model);
             config.dry_run = arguments.dry_run;
             config
                 .offset_ports(arguments.port_offset)
@@ -227,7 +228,7 @@ fn arm(
             if arguments.power_on {
                 power_on(&config, &mut super::recover::say).map_err(Failure::run)?;
             }
-            (Box::new(UrArm::new(config)), None)
+            (Box::new(UrArm::new(config).warning(super::warn)), None)
         }
     };
     Ok(Driven {

@@ -42,6 +42,7 @@ fn run_drives_an_emulator_in_another_process() {
     };
     let first = run("first");
     assert_eq!(first.status, Some(0), "{first:#?}");
+    assert_eq!(first.stderr, "", "the emulator answers every question");
     let log = Rows::of(&folder.join("first"));
     assert_eq!(log.rows.len(), 126);
     assert!(log.header.ends_with(",q6_measured_rad,why"));
@@ -164,13 +165,20 @@ fn a_dry_run_goes_through_the_whole_scenario_and_moves_nothing() {
     let said = say(&folder, &line.replace("arm.toml", "slow.toml"));
     assert_eq!(said.status, Some(1));
     assert!(
-        said.stderr.contains("error: reference-refused: joint "),
+        said.stderr
+            .contains("error: reference-refused: reference 1 (t = 0.008 s): joint "),
         "{said:#?}"
     );
     assert!(
         said.stderr.contains("its limit is 0.010000 rad/s"),
         "{said:#?}"
     );
+    // So is the arm's model: the emulator's dashboard calls it a UR5.
+    let other = text.replace("[ur]", "[ur]\nmodel = \"ur10\"");
+    std::fs::write(folder.join("other.toml"), other).unwrap();
+    let said = say(&folder, &line.replace("arm.toml", "other.toml"));
+    assert_eq!(said.status, Some(1));
+    assert!(said.stderr.starts_with("error: wrong-arm: "), "{said:#?}");
     emulator.signal("INT");
     assert_eq!(emulator.wait().status, Some(0));
 }

@@ -51,7 +51,7 @@ pub use mistake::{Mistake, ScenarioErrors};
 pub use motion::Motion;
 pub use robots::{RobotFacts, known_robots};
 pub use schema::schema;
-pub use ur::{UrSeries, UrSettings};
+pub use ur::{UrModel, UrSeries, UrSettings};
 
 /// A commented scenario to start from: every key with its unit and default, and a small working
 /// example.

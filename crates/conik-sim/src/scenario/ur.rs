@@ -17,10 +17,14 @@ pub struct UrSettings {
     pub host: Option<String>,
     /// The series that the controller must be of.
     pub series: Option<UrSeries>,
+    /// The arm that it must be.
+    pub model: Option<UrModel>,
     /// Lookahead time of `servoj` [s].
     pub servo_lookahead_s: Option<f64>,
     /// Gain of `servoj`.
     pub servo_gain: Option<f64>,
+    /// For how long missing references are bridged before the arm is stopped [s].
+    pub bridge_s: Option<f64>,
     /// Mass on the flange [kg].
     pub payload_kg: Option<f64>,
     /// Tool centre point in the flange's frame [m].
@@ -59,6 +63,67 @@ impl Choice for UrSeries {
     }
 }
 
+/// `ur.model`: the number in the arm's name; the series is another matter (a UR5e is a `ur5`).
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+#[allow(missing_docs)] // Named as the maker does.
+pub enum UrModel {
+    Ur3,
+    Ur5,
+    Ur7,
+    Ur8,
+    Ur10,
+    Ur12,
+    Ur15,
+    Ur16,
+    Ur18,
+    Ur20,
+    Ur30,
+}
+
+impl Choice for UrModel {
+    const ALL: &'static [(Self, &'static str)] = &[
+        (Self::Ur3, "UR3, UR3e"),
+        (Self::Ur5, "UR5, UR5e"),
+        (Self::Ur7, "UR7e"),
+        (Self::Ur8, "UR8 Long"),
+        (Self::Ur10, "UR10, UR10e"),
+        (Self::Ur12, "UR12e"),
+        (Self::Ur15, "UR15"),
+        (Self::Ur16, "UR16e"),
+        (Self::Ur18, "UR18"),
+        (Self::Ur20, "UR20"),
+        (Self::Ur30, "UR30"),
+    ];
+
+    fn name(self) -> &'static str {
+        match self {
+            Self::Ur3 => "ur3",
+            Self::Ur5 => "ur5",
+            Self::Ur7 => "ur7",
+            Self::Ur8 => "ur8",
+            Self::Ur10 => "ur10",
+            Self::Ur12 => "ur12",
+            Self::Ur15 => "ur15",
+            Self::Ur16 => "ur16",
+            Self::Ur18 => "ur18",
+            Self::Ur20 => "ur20",
+            Self::Ur30 => "ur30",
+        }
+    }
+}
+
+impl UrModel {
+    /// The arm in a longer name that begins with it: `UR10e`, `ur5-paper`, `UR8 Long`.
+    pub fn in_name(name: &str) -> Option<Self> {
+        let name = name.trim().to_ascii_lowercase();
+        let number = name.strip_prefix("ur")?;
+        let digits = number.find(|letter: char| !letter.is_ascii_digit());
+        let number = &number[..digits.unwrap_or(number.len())];
+        Self::from_name(&format!("ur{number}"))
+    }
+}
+
 /// Reads the table; `None` where something in it is wrong.
 pub(super) fn read(
     table: &Table,
@@ -72,8 +137,10 @@ pub(super) fn read(
     }
     let host = optional(table.text(&keys::HOST, found).map(str::to_owned));
     let series = optional(table.choice(&keys::SERIES, found));
+    let model = optional(table.choice(&keys::UR_MODEL, found));
     let servo_lookahead_s = optional(table.number(&keys::SERVO_LOOKAHEAD_S, found));
     let servo_gain = optional(table.number(&keys::SERVO_GAIN, found));
+    let bridge_s = optional(table.number(&keys::BRIDGE_S, found));
     let payload_kg = optional(table.number(&keys::PAYLOAD_KG, found));
     let tcp_offset_m = optional(table.vector(&keys::TCP_OFFSET_M, found));
     let tcp_rotation_rad = optional(table.vector(&keys::TCP_ROTATION_RAD, found));
@@ -84,8 +151,10 @@ pub(super) fn read(
     Some(UrSettings {
         host: host?,
         series: series?,
+        model: model?,
         servo_lookahead_s: servo_lookahead_s?,
         servo_gain: servo_gain?,
+        bridge_s: bridge_s?,
         payload_kg: payload_kg?,
         tcp_offset_m: tcp_offset_m?,
         tcp_rotation_rad: tcp_rotation_rad?,
@@ -109,11 +178,13 @@ impl UrSettings {
         let one = |value: &Option<f64>| value.map(number);
         let three = |value: &Option<[f64; 3]>| value.map(|value| vector(&value));
         let list = |value: &Option<Vec<f64>>| value.as_deref().map(vector);
-        let all: [(&'static Key, Option<String>); 10] = [
+        let all: [(&'static Key, Option<String>); 12] = [
             (&keys::HOST, self.host.as_deref().map(text)),
             (&keys::SERIES, self.series.map(|series| text(series.name()))),
+            (&keys::UR_MODEL, self.model.map(|model| text(model.name()))),
             (&keys::SERVO_LOOKAHEAD_S, one(&self.servo_lookahead_s)),
             (&keys::SERVO_GAIN, one(&self.servo_gain)),
+            (&keys::BRIDGE_S, one(&self.bridge_s)),
             (&keys::PAYLOAD_KG, one(&self.payload_kg)),
             (&keys::TCP_OFFSET_M, three(&self.tcp_offset_m)),
             (&keys::TCP_ROTATION_RAD, three(&self.tcp_rotation_rad)),
@@ -135,7 +206,25 @@ impl UrSettings {
 
 #[cfg(test)]
 mod tests {
+    use super::UrModel;
     use crate::scenario::{Scenario, template};
+
+    #[test]
+    fn an_arm_is_known_by_the_number_in_its_name() {
+        for (name, model) in [
+            ("UR5", Some(UrModel::Ur5)),
+            ("UR5e", Some(UrModel::Ur5)),
+            ("ur5-paper", Some(UrModel::Ur5)),
+            (" UR10 ", Some(UrModel::Ur10)),
+            ("UR8 Long", Some(UrModel::Ur8)),
+            ("UR50", None),
+            ("UR", None),
+            ("URé", None),
+            ("panda", None),
+        ] {
+            assert_eq!(UrModel::in_name(name), model, "{name}");
+        }
+    }
 
     fn with(ur: &str) -> String {
         let text = template();
@@ -147,7 +236,8 @@ mod tests {
     #[test]
     fn every_setting_survives_the_way_into_a_file_and_back() {
         let text = with(
-            "host = \"arm\"\nseries = \"e-series\"\nservo_lookahead_s = 0.05\nservo_gain = 500\n\
+            "host = \"arm\"\nseries = \"e-series\"\nmodel = \"ur10\"\n\
+             servo_lookahead_s = 0.05\nservo_gain = 500\nbridge_s = 0.02\n\
              payload_kg = 1.5\ntcp_offset_m = [0, 0, 0.12]\ntcp_rotation_rad = [0, 1, 0]\n\
              most_position_rad = 3\nmost_speed_rad_per_s = [1, 2, 3, 1, 2, 3]\n\
              most_acceleration_rad_per_s2 = 20",
@@ -156,7 +246,7 @@ mod tests {
         let ur = scenario.ur.clone().unwrap();
         assert_eq!(ur.host.as_deref(), Some("arm"));
         assert_eq!(ur.most_position_rad, Some(vec![3.0; 6]));
-        assert_eq!(ur.written().len(), 10, "all of them");
+        assert_eq!(ur.written().len(), 12, "all of them");
         assert_eq!(Scenario::from_toml(&scenario.to_toml()).unwrap(), scenario);
         let json = serde_json::to_string(&scenario).unwrap();
         assert_eq!(serde_json::from_str::<Scenario>(&json).unwrap(), scenario);
@@ -168,6 +258,8 @@ mod tests {
             ("servo_lookahead_s = 0.3", "ur.servo_lookahead_s"),
             ("servo_gain = 99", "ur.servo_gain"),
             ("series = \"e\"", "ur.series"),
+            ("model = \"ur5e\"", "ur.model"),
+            ("bridge_s = 0.6", "ur.bridge_s"),
             ("most_speed_rad_per_s = [1, 2]", "ur.most_speed_rad_per_s"),
             ("most_speed_rad_per_s = 0", "ur.most_speed_rad_per_s"),
             ("tcp_rotation_rad = [0, 0, 0]", "ur.tcp_offset_m"),

@@ -1,14 +1,16 @@
 //! The keys of `[ur]`: how a Universal Robots arm is driven.
 
 use super::key::{Holds, Key, Range};
-use super::ur::UrSeries;
+use super::ur::{UrModel, UrSeries};
 
 /// `[ur]`.
 pub(super) const UR_KEYS: &[&Key] = &[
     &HOST,
     &SERIES,
+    &UR_MODEL,
     &SERVO_LOOKAHEAD_S,
     &SERVO_GAIN,
+    &BRIDGE_S,
     &PAYLOAD_KG,
     &TCP_OFFSET_M,
     &TCP_ROTATION_RAD,
@@ -31,6 +33,13 @@ pub(super) const SERIES: Key = Key::new(
     Holds::choice::<UrSeries>(),
     r#""e-series""#,
 );
+pub(super) const UR_MODEL: Key = Key::new(
+    "model",
+    "",
+    "The arm that it must be; without it, any of the name of the scenario's robot will do",
+    Holds::choice::<UrModel>(),
+    r#""ur5""#,
+);
 pub(super) const SERVO_LOOKAHEAD_S: Key = Key::new(
     "servo_lookahead_s",
     "s",
@@ -44,6 +53,13 @@ pub(super) const SERVO_GAIN: Key = Key::new(
     "Gain of `servoj`: a high one follows stiffly, and rings with a short lookahead",
     Holds::Number(Range::between(100.0, 2000.0)),
     "300",
+);
+pub(super) const BRIDGE_S: Key = Key::new(
+    "bridge_s",
+    "s",
+    "For how long missing references are bridged with the last velocity before the arm is stopped",
+    Holds::Number(Range::between(0.01, 0.5)),
+    "0.04",
 );
 pub(super) const PAYLOAD_KG: Key = Key::new(
     "payload_kg",

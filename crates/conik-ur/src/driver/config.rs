@@ -3,7 +3,7 @@
 use super::recover::UNLOCK_AFTER;
 use crate::program::Pose;
 use crate::registers::{JOINTS, RegisterBase};
-use conik_sim::scenario::{UrSeries, UrSettings};
+use conik_sim::scenario::{UrModel, UrSeries, UrSettings};
 use std::f64::consts::{PI, TAU};
 use std::time::Duration;
 
@@ -60,6 +60,11 @@ pub struct UrConfig {
     pub tcp: Option<Pose>,
     /// The series that the controller must be of; `None`: any.
     pub series: Option<UrSeries>,
+    /// The model that the dashboard must name; `None`: any.
+    pub model: Option<UrModel>,
+    /// The arm whose kinematics the references come from, which must be that model too; `None`: not
+    /// known.
+    pub robot: Option<UrModel>,
     /// Check everything, send nothing: no register is claimed, no program sent, no reference
     /// written.
     pub dry_run: bool,
@@ -77,6 +82,9 @@ pub struct UrConfig {
     pub connect_timeout: Duration,
     /// Silence after which the link counts as lost.
     pub link_timeout: Duration,
+    /// For how long to try again where an input register is in use: a connection that has died may
+    /// linger.
+    pub in_use_patience: Duration,
     /// Time from sending the servo program until it runs.
     pub program_timeout: Duration,
     /// Time from asking for a stop until the program has ended.
@@ -107,6 +115,8 @@ impl UrConfig {
             payload_kg: None,
             tcp: None,
             series: None,
+            model: None,
+            robot: None,
             dry_run: false,
             speed_limit: [PI; JOINTS],
             acceleration_limit: None,
@@ -114,6 +124,7 @@ impl UrConfig {
             first_reference_tolerance: 1e-3,
             connect_timeout: Duration::from_secs(3),
             link_timeout: Duration::from_millis(500),
+            in_use_patience: Duration::from_secs(2),
             program_timeout: Duration::from_secs(5),
             stop_timeout: Duration::from_secs(3),
             unlock_after: UNLOCK_AFTER,
@@ -127,8 +138,10 @@ impl UrConfig {
     pub fn apply(&mut self, settings: &UrSettings) {
         let six = |limits: &Option<Vec<f64>>| limits.as_deref()?.try_into().ok();
         self.series = settings.series;
+        self.model = settings.model;
         self.lookahead_s = settings.servo_lookahead_s.unwrap_or(self.lookahead_s);
         self.gain = settings.servo_gain.unwrap_or(self.gain);
+        self.extrapolate_s = settings.bridge_s.unwrap_or(self.extrapolate_s);
         self.payload_kg = settings.payload_kg.or(self.payload_kg);
         if let Some([x, y, z]) = settings.tcp_offset_m {
             let [rx, ry, rz] = settings.tcp_rotation_rad.unwrap_or_default();

@@ -29,6 +29,8 @@ pub(super) struct Guard {
     position_limit: [f64; JOINTS],
     first_tolerance: f64,
     previous: Option<Previous>,
+    /// References that passed.
+    passed: u64,
 }
 
 /// The reference sent last.
@@ -51,14 +53,31 @@ impl Guard {
             position_limit: config.position_limit,
             first_tolerance: config.first_reference_tolerance,
             previous: None,
+            passed: 0,
         }
     }
 
-    /// The reference as it may be sent to an arm that stands at `present` [rad].
+    /// The reference as it may be sent to an arm that stands at `present` [rad]; a refusal says which
+    /// one it is, counted from 0 as the rows of the log are.
     ///
     /// `present` counts for the first reference only: later ones follow on each other, since the
     /// arm lags behind them by design.
     pub(super) fn check(
+        &mut self,
+        reference: &Reference,
+        present: &[f64; JOINTS],
+    ) -> Result<Checked, ArmError> {
+        let checked = self.check_all(reference, present).map_err(|fault| {
+            let number = self.passed;
+            let t_s = number as f64 * self.period_s;
+            let detail = format!("reference {number} (t = {t_s:.3} s): {}", fault.detail);
+            ArmError::new(fault.name, detail)
+        })?;
+        self.passed += 1;
+        Ok(checked)
+    }
+
+    fn check_all(
         &mut self,
         reference: &Reference,
         present: &[f64; JOINTS],
@@ -198,7 +217,11 @@ mod tests {
         q[2] = before + 0.04;
         let fault = guard.check(&reference(q), &[0.0; 6]).unwrap_err();
         assert_eq!(fault.name, REFERENCE_REFUSED);
-        for part in ["joint 3 (elbow)", "5.000000 rad/s", "3.141593 rad/s"] {
+        for part in [
+            "reference 5 (t = 0.040 s): joint 3 (elbow)",
+            "5.000000 rad/s",
+            "3.141593 rad/s",
+        ] {
             assert!(fault.detail.contains(part), "{fault}");
         }
     }

@@ -4,8 +4,10 @@ use super::config::UrConfig;
 use super::connect::connect;
 use super::fault;
 use super::guard::Guard;
+use super::identity::Identity;
 use super::pace::{self, Pace, Stamp};
 use super::plan;
+use super::rate::RateCheck;
 use crate::program::ServoProgram;
 use crate::registers::{Command, JOINTS, Phase};
 use crate::session::{Session, SessionError};
@@ -14,7 +16,11 @@ use crate::wire::Value;
 use conik_sim::arm::{ArmError, Feedback, Reference};
 use std::io::Write;
 use std::net::TcpStream;
+use std::thread;
 use std::time::{Duration, Instant};
+
+/// Between two tries to claim registers that are in use.
+const CLAIM_EVERY: Duration = Duration::from_millis(100);
 
 /// A connection on which the servo program runs.
 #[derive(Debug)]
@@ -56,7 +62,13 @@ enum Turn {
 impl Link {
     /// Connects, checks that the arm may move, and brings the servo program to where it waits for
     /// the first reference. Nothing moves.
-    pub(super) fn open(config: &UrConfig, rate_hz: f64) -> Result<Self, ArmError> {
+    ///
+    /// `say` hears what could not be checked or had to be waited for.
+    pub(super) fn open(
+        config: &UrConfig,
+        rate_hz: f64,
+        say: &mut dyn FnMut(&str),
+    ) -> Result<Self, ArmError> {
         let stream = connect(config, config.rtde_port)?;
         let mut session = Session::greet(stream).map_err(|error| fault::of_session(&error))?;
         let version = session.version();
@@ -67,11 +79,14 @@ impl Link {
         let text = program
             .text()
             .map_err(|error| ArmError::new(fault::BAD_SETTING, error.to_string()))?;
+        // Before packages come: none waits meanwhile.
+        Identity::ask_and_check(config, say)?;
 
         let status = subscribe(
             &mut session,
             config,
             plan::output_frequency(plan::controller_rate(config, version), every),
+            say,
         )
         .map_err(|error| fault::of_session(&error))?;
         if let Some(hindrance) = plan::hindrance(&status) {
@@ -119,8 +134,11 @@ impl Link {
             ArmError::new(fault::LINK_LOST, detail)
         })?;
         let deadline = Instant::now() + config.program_timeout;
+        let mut rate = RateCheck::default();
         loop {
-            self.read()?;
+            let before = self.status.timestamp;
+            let passed_over = self.read()?;
+            rate.add(self.status.timestamp - before, 1 + passed_over);
             self.write(Command::Idle)?;
             if let Some(fault) = fault::of_arm(&self.status) {
                 return Err(fault);
@@ -128,7 +146,7 @@ impl Link {
             let ours = self.status.session == self.program.session;
             if ours && self.status.phase == Some(Phase::Waiting) && self.status.program_is_running()
             {
-                return Ok(());
+                return rate.check(self.pace.cycle_s);
             }
             if Instant::now() > deadline {
                 return Err(self.program_not_started(config));
@@ -289,12 +307,40 @@ fn subscribe(
     session: &mut Session<TcpStream>,
     config: &UrConfig,
     frequency_hz: f64,
+    say: &mut dyn FnMut(&str),
 ) -> Result<Status, SessionError> {
     session.subscribe(frequency_hz, &Status::fields(config.registers))?;
     if !config.dry_run {
-        session.claim(&config.registers.inputs())?;
+        claim(session, config, say)?;
     }
     session.start()?;
     let latest = session.latest()?;
     Status::from_values(&latest.values).ok_or(SessionError::OutOfOrder("the agreed output fields"))
+}
+
+/// Claims the registers of the references. One in use may belong to a connection that has died.
+fn claim(
+    session: &mut Session<TcpStream>,
+    config: &UrConfig,
+    say: &mut dyn FnMut(&str),
+) -> Result<(), SessionError> {
+    let deadline = Instant::now() + config.in_use_patience;
+    let mut is_told = false;
+    loop {
+        match session.claim(&config.registers.inputs()) {
+            Err(SessionError::InUse { names }) if Instant::now() < deadline => {
+                if !is_told {
+                    let seconds = config.in_use_patience.as_secs_f64();
+                    let names = names.join(", ");
+                    say(&format!(
+                        "{names}: in use, perhaps by a connection that has just died; trying \
+                         again for {seconds} s"
+                    ));
+                    is_told = true;
+                }
+                thread::sleep(CLAIM_EVERY);
+            }
+            result => return result,
+        }
+    }
 }

@@ -4,9 +4,10 @@
 //! |---|---|
 //! | `config` | where the controller is and how it is to be driven |
 //! | `connect` | TCP connections with time-outs |
-//! | `dashboard`, `recover` | from a stop back to where a run may start |
+//! | `dashboard`, `identity` | which arm it is, and whether it takes programs from afar |
+//! | `recover` | from a stop back to where a run may start |
 //! | `link` | one connection, from the handshake to the stop |
-//! | `pace` | what is late, and what is no clock |
+//! | `pace`, `rate` | what is late, what is no clock, and whether it keeps the rate |
 //! | `plan` | what is settled before: rate, registers, program |
 //! | `preflight` | a look at controller and link before anything moves |
 //! | `guard` | the last check of a reference before it goes out |
@@ -17,10 +18,12 @@ mod connect;
 mod dashboard;
 pub mod fault;
 mod guard;
+pub mod identity;
 mod link;
 mod pace;
 mod plan;
 pub mod preflight;
+mod rate;
 pub mod recover;
 
 pub use config::UrConfig;
@@ -29,6 +32,7 @@ use crate::status::Status;
 use conik::JointVec;
 use conik_sim::arm::{Arm, ArmError, Feedback, Reference};
 use link::Link;
+use std::fmt;
 
 /// A UR arm that follows references.
 ///
@@ -40,6 +44,28 @@ pub struct UrArm {
     config: UrConfig,
     link: Option<Link>,
     fault: Option<ArmError>,
+    warned: Listener,
+}
+
+/// Takes in what is said.
+type Hears = dyn FnMut(&str) + Send;
+
+/// Who hears what is no fault but should be known.
+#[derive(Default)]
+struct Listener(Option<Box<Hears>>);
+
+impl Listener {
+    fn say(&mut self, words: &str) {
+        if let Some(listener) = &mut self.0 {
+            listener(words);
+        }
+    }
+}
+
+impl fmt::Debug for Listener {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "Listener({})", self.0.is_some())
+    }
 }
 
 impl UrArm {
@@ -49,7 +75,16 @@ impl UrArm {
             config,
             link: None,
             fault: None,
+            warned: Listener::default(),
         }
+    }
+
+    /// Has `listener` hear what a start could not check or had to wait for. It is called within
+    /// `start` only, before anything moves.
+    #[must_use]
+    pub fn warning(mut self, listener: impl FnMut(&str) + Send + 'static) -> Self {
+        self.warned = Listener(Some(Box::new(listener)));
+        self
     }
 
     /// What the controller last said of itself, while connected.
@@ -100,7 +135,7 @@ impl Arm for UrArm {
             let detail = "the arm is already started: stop it before it is started again";
             return Err(ArmError::new(fault::ALREADY_STARTED, detail));
         }
-        let link = Link::open(&self.config, rate_hz)?;
+        let link = Link::open(&self.config, rate_hz, &mut |words| self.warned.say(words))?;
         let q = link.status().target_q;
         self.link = Some(link);
         Ok(q.into())

@@ -3,7 +3,7 @@
 use super::config::UrConfig;
 use super::fault;
 use crate::program::ServoProgram;
-use crate::status::Status;
+use crate::status::{Status, runtime_state};
 use crate::wire::ControllerVersion;
 use conik_sim::arm::ArmError;
 use conik_sim::scenario::{Choice, UrSeries};
@@ -110,8 +110,14 @@ pub(super) fn output_frequency(controller_rate: f64, every: f64) -> f64 {
 /// Why a run cannot start now: the arm may not move, or a program has it.
 pub(super) fn hindrance(status: &Status) -> Option<ArmError> {
     fault::of_arm(status).or_else(|| {
-        let detail = "a program runs on the controller: stop it at the pendant first";
-        (!status.program_is_still()).then(|| ArmError::new(fault::OTHER_PROGRAM, detail))
+        let detail = if status.runtime_state == runtime_state::PAUSED {
+            "a program is paused on the controller, and this one would end it: stop it at the \
+             pendant first"
+        } else {
+            "a program runs on the controller: stop it at the pendant first"
+        };
+        (status.runtime_state != runtime_state::STOPPED)
+            .then(|| ArmError::new(fault::OTHER_PROGRAM, detail))
     })
 }
 

@@ -3,6 +3,7 @@
 
 use super::config::UrConfig;
 use super::connect::connect;
+use super::identity::Identity;
 use super::{fault, plan};
 use crate::session::{Session, SessionError};
 use crate::status::Status;
@@ -19,6 +20,8 @@ pub struct Preflight {
     pub version: ControllerVersion,
     /// `CB3` or `e-Series`.
     pub series: &'static str,
+    /// What the dashboard says of the arm; or why it says nothing.
+    pub identity: Result<Identity, ArmError>,
     /// Rate at which packages were asked for [Hz].
     pub rate_hz: f64,
     /// Cycles that the servo program bridges at this rate.
@@ -51,6 +54,7 @@ pub fn preflight(
     program
         .check()
         .map_err(|error| ArmError::new(fault::BAD_SETTING, error.to_string()))?;
+    let identity = Identity::ask(config);
     session
         .subscribe(
             plan::output_frequency(controller_rate, every),
@@ -86,7 +90,12 @@ pub fn preflight(
         rate_hz,
         bridged_cycles: program.extrapolated_cycles,
         q: status.actual_q,
-        hindrance: plan::hindrance(&status),
+        hindrance: identity
+            .as_ref()
+            .ok()
+            .and_then(|identity| identity.check(config).err())
+            .or_else(|| plan::hindrance(&status)),
+        identity,
         timing,
     })
 }

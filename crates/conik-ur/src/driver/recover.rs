@@ -3,7 +3,7 @@
 
 use super::config::UrConfig;
 use super::dashboard::Dashboard;
-use super::fault;
+use super::{fault, identity};
 use conik_sim::arm::ArmError;
 use std::thread;
 use std::time::{Duration, Instant};
@@ -48,8 +48,9 @@ pub fn recover(
         release_brakes(config, &mut dashboard, say)?;
     }
     // What runs was stopped by the fault, and must not go on by itself: the next run sends its own.
-    if dashboard.ask("running")?.ends_with("true") {
-        say("stopping the program that still runs");
+    // A paused program too, or someone may resume it.
+    if !dashboard.ask("programState")?.starts_with("STOPPED") {
+        say("stopping the program that is left on the controller");
         dashboard.order("stop", "Stopped")?;
     }
     Ok(())
@@ -82,14 +83,11 @@ fn release_brakes(
     await_state(config, dashboard, "robotmode", &["RUNNING"])
 }
 
-/// An e-Series takes orders from afar in remote control only; a CB3 does not know the question.
 fn check_remote_control(dashboard: &mut Dashboard) -> Result<(), ArmError> {
-    if dashboard.ask("is in remote control")? == "false" {
-        let detail = "the controller is in local control: switch it to remote control at the \
-                      pendant";
-        return Err(ArmError::new(fault::NOT_REMOTE, detail));
+    match identity::remote_control(dashboard)? {
+        Some(false) => Err(identity::local_control()),
+        Some(true) | None => Ok(()),
     }
-    Ok(())
 }
 
 /// `NORMAL` of `Safetymode: NORMAL`.

@@ -193,6 +193,7 @@ impl Emulator {
         UrConfig {
             rtde_port: self.rtde_port(),
             script_port: self.script_port(),
+            dashboard_port: self.dashboard_port(),
             name: Some(self.config.name.clone()),
             controller_rate_hz: Some(self.config.rate_hz),
             real_time: self.config.pace == Pace::WallTime,

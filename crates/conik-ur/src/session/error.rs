@@ -31,8 +31,8 @@ pub enum SessionError {
     /// Someone else writes these inputs.
     #[error(
         "another client or a fieldbus (EtherNet/IP, PROFINET) holds {}: end the other client, \
-         switch the fieldbus off, or use registers 24 to 47; a connection that has just died may \
-         hold them for some seconds",
+         switch the fieldbus off, or use registers 24 to 47; a connection that has died may hold \
+         them until the controller notices",
         names.join(", ")
     )]
     InUse {

@@ -1,6 +1,8 @@
 //! A controller that only records: it reads and writes bytes by hand, so that it shares no mistake
 //! with the wire format under test, and it has no arm.
 
+pub mod dashboard;
+
 use std::io::{Read, Write};
 use std::net::{TcpListener, TcpStream};
 use std::sync::mpsc::{Receiver, channel};
@@ -23,12 +25,14 @@ pub struct Behaviour {
     pub version: (u32, u32),
     /// Sends every byte in a segment of its own.
     pub byte_by_byte: bool,
-    /// Answers the inputs with this list instead of the types.
-    pub input_types: Option<String>,
+    /// Answers so many requests for inputs with this list instead of the types.
+    pub input_types: Option<(usize, String)>,
     /// Packages sent at once where one is due.
     pub packages_at_once: usize,
     /// Sends packages on its own, one a millisecond, until the driver goes away.
     pub streams: bool,
+    /// Packages that go by before the program that came in runs.
+    pub program_starts_after: u32,
     /// How the outputs are from the beginning.
     pub from_start: Option<Change>,
     /// Changes the outputs from the given reference on.
@@ -44,6 +48,7 @@ impl Default for Behaviour {
             input_types: None,
             packages_at_once: 1,
             streams: false,
+            program_starts_after: 0,
             from_start: None,
             after: None,
         }
@@ -65,6 +70,8 @@ pub struct Outputs {
     pub phase: i32,
     pub session: i32,
     pub actual_q: Option<[f64; 6]>,
+    /// A program that came in, and the packages until it runs.
+    program: Option<(i32, u32)>,
     /// What the link comes to.
     pub link: LinkEnd,
 }
@@ -137,6 +144,7 @@ fn serve(behaviour: &Behaviour, listener: &TcpListener, sessions: &Receiver<i32>
     let (mut stream, _) = listener.accept().unwrap();
     stream.set_nodelay(true).unwrap();
     let mut written = Vec::new();
+    let mut refused = 0;
     let mut outputs = Outputs {
         timestamp: 60.0,
         runtime_state: 1,
@@ -147,6 +155,7 @@ fn serve(behaviour: &Behaviour, listener: &TcpListener, sessions: &Receiver<i32>
         phase: 0,
         session: 0,
         actual_q: None,
+        program: None,
         link: LinkEnd::None,
     };
     if let Some(change) = behaviour.from_start {
@@ -172,7 +181,10 @@ fn serve(behaviour: &Behaviour, listener: &TcpListener, sessions: &Receiver<i32>
             )),
             b'I' => {
                 let types = format!("INT32,INT32{}", ",DOUBLE".repeat(12));
-                let types = behaviour.input_types.clone().unwrap_or(types);
+                let other = behaviour.input_types.clone();
+                let other = other.filter(|(times, _)| refused < *times);
+                refused += 1;
+                let types = other.map_or(types, |(_, types)| types);
                 replies.push((b'I', [&[1], types.as_bytes()].concat()));
             }
             b'S' => {
@@ -220,6 +232,13 @@ fn stream_outputs(stream: &mut TcpStream, behaviour: &Behaviour, outputs: &mut O
 /// The servo program's share in the outputs.
 fn react(outputs: &mut Outputs, behaviour: &Behaviour, inputs: &Written, sessions: &Receiver<i32>) {
     if let Ok(session) = sessions.try_recv() {
+        outputs.program = Some((session, behaviour.program_starts_after));
+    }
+    if let Some((_, left)) = &mut outputs.program
+        && *left > 0
+    {
+        *left -= 1;
+    } else if let Some((session, _)) = outputs.program.take() {
         outputs.session = session;
         outputs.phase = 1;
         outputs.runtime_state = 2;
