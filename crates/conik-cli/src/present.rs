@@ -1,7 +1,9 @@
 //! What `conik run` says on the terminal: a heading before, a summary after.
 
 use conik_cli::report::units::{limit, optional, quantity};
+use conik_sim::cycle_times::CycleSummary;
 use conik_sim::experiment::Experiment;
+use conik_sim::histogram::Distribution;
 use conik_sim::joint_limits::LIMIT;
 use conik_sim::scenario::{Border, Choice, Control, GoalConfig, Scenario, TaskConfig};
 use conik_sim::summary::{Landing, Outcome, Property, Summary, TaskSummary};
@@ -297,9 +299,12 @@ fn machine(summary: &Summary) -> String {
             .unwrap_or((0, 0.0));
         let rms = tracking.rms_rad.get(joint).copied().unwrap_or(0.0);
         if let Some(delay_s) = tracking.delay_s {
+            let left = tracking.delayed_max_rad.iter().flatten().copied();
+            let left = left.fold(0.0, f64::max);
             text += &format!(
-                "  the arm ran {:.1} ms behind its reference\n",
-                1e3 * delay_s
+                "  the arm ran {:.1} ms behind its reference, and but for that within {}\n",
+                1e3 * delay_s,
+                quantity(left, "rad")
             );
         }
         text += &format!(
@@ -310,5 +315,30 @@ fn machine(summary: &Summary) -> String {
             counted(summary.deadline_misses, "cycle"),
         );
     }
-    text
+    text + &summary.cycles.as_ref().map_or(String::new(), cycles)
+}
+
+/// When packages came and were answered.
+fn cycles(cycles: &CycleSummary) -> String {
+    let row = |name: &str, times: &Distribution| {
+        let times = [times.median, times.p99, times.p999, times.max];
+        let [median, p99, p999, max] = times.map(|us| format!("{us:.0}"));
+        [name.to_owned(), median, p99, p999, max]
+    };
+    let mut rows = vec![
+        ["[µs]", "median", "99 %", "99.9 %", "longest"].map(str::to_owned),
+        row("package to package", &cycles.period_us),
+    ];
+    rows.extend(
+        cycles
+            .answer_us
+            .as_ref()
+            .map(|times| row("package to answer", times)),
+    );
+    format!(
+        "{}  {} missed, {} repeated\n",
+        table(&rows),
+        counted(cycles.missed, "cycle"),
+        cycles.repeated
+    )
 }

@@ -31,6 +31,10 @@ fn the_page_tells_the_run_in_the_papers_order() {
         "Mode changes",
         "Step time and tracking",
         "The arm ran 104.2 ms behind its reference",
+        "Largest, delay taken out",
+        "Cycles of the arm",
+        "2 cycles were missed, 0 repeated.",
+        "Histogram",
         "Settings",
     ];
     let places: Vec<usize> = order
@@ -57,8 +61,8 @@ fn the_page_needs_nothing_but_itself() {
 fn pictures_and_tables_are_accessible() {
     let page = reported("access", &Invention::default());
     let pictures = page.matches("<svg ").count();
-    // Path, mode, three sets, one error, joints.
-    assert_eq!(pictures, 7);
+    // Path, mode, three sets, one error, cycles, joints.
+    assert_eq!(pictures, 8);
     assert_eq!(page.matches("role=\"img\" aria-label=\"").count(), pictures);
     assert_eq!(
         page.matches("<table>").count(),

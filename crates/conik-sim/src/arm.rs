@@ -1,5 +1,6 @@
 //! What the run loop asks of an arm, whoever drives it: an ideal one, an emulated one, a real one.
 
+use crate::cycle_times::CycleTimes;
 use conik::JointVec;
 
 /// A reference for the arm's joint servos, valid for one control period.
@@ -47,6 +48,12 @@ pub trait Arm {
     /// Whether time passes on its own (a real arm, or an emulated one in wall time) rather than
     /// as fast as references are computed.
     fn is_real_time(&self) -> bool;
+
+    /// How the cycles since `start` came and were answered, also after `stop`; `None` of an arm that
+    /// has no clock of its own.
+    fn cycle_times(&self) -> Option<&CycleTimes> {
+        None
+    }
 }
 
 /// A named fault of the arm or of the way to it.

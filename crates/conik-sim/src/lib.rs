@@ -10,7 +10,9 @@
 pub mod announced;
 pub mod arm;
 pub mod check;
+pub mod cycle_times;
 pub mod experiment;
+pub mod histogram;
 pub mod joint_limits;
 pub mod log;
 pub mod monitors;

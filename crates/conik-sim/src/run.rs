@@ -7,6 +7,7 @@ use conik::{ActiveSet, Frame, JointVec, Monitor, Stack, Step, TaskId};
 
 use crate::announced::{Announcements, Unannounced};
 use crate::arm::{Arm, ArmError, Feedback, Reference};
+use crate::cycle_times::CycleTimes;
 use crate::experiment::Experiment;
 use crate::record::Record;
 use crate::summary::Outcome;
@@ -36,6 +37,8 @@ pub struct Ended {
     pub monitor: Monitor,
     /// Samples outside a set of which the tick before said nothing.
     pub unannounced: Unannounced,
+    /// How the arm's cycles came and were answered; `None` where it has no clock of its own.
+    pub cycles: Option<CycleTimes>,
     /// The experiment, in its last state.
     pub experiment: Experiment,
 }
@@ -71,6 +74,7 @@ pub fn run(
         outcome,
         monitor: watch.monitor,
         unannounced: watch.announcements.unannounced(),
+        cycles: arm.cycle_times().cloned(),
         experiment,
     }
 }

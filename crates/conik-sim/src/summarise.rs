@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use conik::{ActiveSet, Deviation, Goal, JointVec, Monitor, Reason, Stack};
 
+use crate::cycle_times::CycleTimes;
 use crate::experiment::Experiment;
 use crate::monitors::Monitors;
 use crate::record::Record;
@@ -100,11 +101,11 @@ impl Summariser {
         if let Some(measured) = record.q_measured {
             let still = JointVec::zeros(measured.len());
             self.tracking
-                .get_or_insert(TrackingSum {
+                .get_or_insert_with(|| TrackingSum {
                     max: still,
                     squares: still,
                     ticks: 0,
-                    delay: ServoDelay::default(),
+                    delay: ServoDelay::new(measured.len()),
                 })
                 .add(&record.q, &measured);
         }
@@ -151,6 +152,7 @@ impl Summariser {
             version,
         );
         summary.monitors = Some(Monitors::of(ended));
+        summary.cycles = ended.cycles.as_ref().and_then(CycleTimes::summary);
         summary
     }
 
@@ -180,6 +182,7 @@ impl Summariser {
             final_q_rad: final_q.to_vec(),
             step_time_us: step_time(self.step_ns),
             deadline_misses: self.deadline_misses,
+            cycles: None,
             tracking: self.tracking.map(|sum| sum.finish(experiment.period_s())),
             speed_limited_ticks: self.speed_limited_ticks,
             no_mode_ticks: self.no_mode_ticks,
@@ -218,6 +221,7 @@ impl TrackingSum {
 
     fn finish(self, period_s: f64) -> Tracking {
         let ticks = self.ticks as f64;
+        let delayed = self.delay.found();
         Tracking {
             max_rad: self.max.to_vec(),
             rms_rad: self
@@ -225,7 +229,9 @@ impl TrackingSum {
                 .iter()
                 .map(|sum| (sum / ticks).sqrt())
                 .collect(),
-            delay_s: self.delay.ticks().map(|ticks| ticks * period_s),
+            delay_s: delayed.as_ref().map(|found| found.ticks * period_s),
+            delayed_max_rad: delayed.as_ref().map(|found| found.max.clone()),
+            delayed_rms_rad: delayed.map(|found| found.rms),
         }
     }
 }

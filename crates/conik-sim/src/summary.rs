@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
+use crate::cycle_times::CycleSummary;
 use crate::monitors::Monitors;
 use crate::scenario::Scenario;
 
@@ -37,6 +38,9 @@ pub struct Summary {
     pub step_time_us: StepTime,
     /// Cycles of the arm's clock that went by without a reference.
     pub deadline_misses: u64,
+    /// How the arm's cycles came and were answered; `None` where it has no clock of its own.
+    #[serde(default)]
+    pub cycles: Option<CycleSummary>,
     /// How closely the arm followed; `None` where nothing measures.
     pub tracking: Option<Tracking>,
     /// Ticks in which the speed limit of a joint scaled the velocity down.
@@ -195,4 +199,11 @@ pub struct Tracking {
     /// it moved too little or too short to tell.
     #[serde(default)]
     pub delay_s: Option<f64>,
+    /// Largest error of each joint once the delay is taken out, to an eighth of a tick [rad]; `None`
+    /// where there is no delay.
+    #[serde(default)]
+    pub delayed_max_rad: Option<Vec<f64>>,
+    /// Root mean square of the same [rad].
+    #[serde(default)]
+    pub delayed_rms_rad: Option<Vec<f64>>,
 }

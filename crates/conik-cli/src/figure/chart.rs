@@ -39,12 +39,18 @@ impl Layout {
             time_labels: true,
         }
     }
+
+    /// Between the axes [px].
+    fn inner_width(&self) -> f64 {
+        (self.width - self.left - 12.0).max(40.0)
+    }
 }
 
 /// A chart being drawn.
 pub struct Chart {
     layout: Layout,
     title: String,
+    x_label: &'static str,
     x: Axis,
     y: Axis,
     corner: Point,
@@ -58,18 +64,34 @@ pub struct Chart {
 impl Chart {
     /// An empty chart of `run` with the value axis `y`.
     pub fn new(layout: Layout, title: &str, y_label: &str, run: &Run, y: Axis) -> Self {
+        let (from_s, to_s) = run.period_s();
+        let x = Axis::spanning(
+            from_s,
+            to_s,
+            if layout.inner_width() < 260.0 { 4 } else { 7 },
+        );
+        Self::over(layout, title, (x, "time [s]"), (y, y_label))
+    }
+
+    /// An empty chart with these axes and labels.
+    pub fn over(
+        layout: Layout,
+        title: &str,
+        (x, x_label): (Axis, &'static str),
+        (y, y_label): (Axis, &str),
+    ) -> Self {
         let corner = (layout.left, 22.0);
         let below = if layout.time_labels { 36.0 } else { 8.0 };
         let size = (
-            (layout.width - layout.left - 12.0).max(40.0),
+            layout.inner_width(),
             (layout.height - corner.1 - below).max(20.0),
         );
-        let (from_s, to_s) = run.period_s();
         let page = Area { at: corner, size };
         let mut chart = Self {
             layout,
             title: title.to_owned(),
-            x: Axis::spanning(from_s, to_s, if size.0 < 260.0 { 4 } else { 7 }),
+            x_label,
+            x,
             y,
             corner,
             size,
@@ -119,7 +141,7 @@ impl Chart {
         if self.layout.time_labels {
             let style = Lettering::new(LABEL, palette::SOFT).anchored("middle");
             let middle = f64::midpoint(left, right);
-            marks.text((middle, bottom + 30.0), "time [s]", style);
+            marks.text((middle, bottom + 30.0), self.x_label, style);
         }
         if !y_label.is_empty() {
             let x = (left - 7.0 - widest - 8.0).max(11.0);

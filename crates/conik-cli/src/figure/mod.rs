@@ -1,7 +1,7 @@
 //! The figures of a run: the panels of the paper's Figure 4, each as an SVG, from a run folder.
 //!
 //! [`write_all`] is what `conik plot DIR` does. A panel is a [`Picture`](svg::Picture): `path`,
-//! `mode`, `sets`, `errors`, `joints`, and `figure4` with all of them. Colour stands for one thing
+//! `mode`, `sets`, `errors`, `joints`, `cycles` of a robot, and `figure4` with those of the paper. Colour stands for one thing
 //! everywhere, the mode. The same run gives the same bytes. How a page is made of them is
 //! [`report`](crate::report).
 
@@ -14,6 +14,7 @@ mod callouts;
 pub mod camera;
 pub mod chart;
 pub mod curve;
+pub mod cycles;
 pub mod errors;
 pub mod figure4;
 mod floor;
@@ -48,8 +49,9 @@ pub fn write_all(dir: &Path) -> Result<Vec<PathBuf>, FigureError> {
         ("joints.svg", joints::panel(&run, WIDTH)),
         ("figure4.svg", figure4::picture(&run)),
     ];
+    let cycles = cycles::panel(&run, WIDTH).map(|picture| ("cycles.svg", picture));
     let mut written = Vec::new();
-    for (name, picture) in pictures {
+    for (name, picture) in pictures.into_iter().chain(cycles) {
         let path = dir.join(name);
         match fs::write(&path, picture.to_file()) {
             Ok(()) => written.push(path),

@@ -13,6 +13,7 @@ use crate::figure::markup::Escaped;
 use crate::figure::svg::Picture;
 use crate::figure::{Run, RunError, errors, joints, mode, path, sets};
 
+mod cycles;
 pub mod monitors;
 mod properties;
 mod rotation;
@@ -48,7 +49,7 @@ pub fn page(run: &Run) -> String {
     }
     sections.push(tables::mode_changes(run));
     if !run.was_cut_off() {
-        sections.push(tables::timing(run));
+        sections.extend([tables::timing(run), cycles::section(run)]);
     }
     sections.extend([joints_section(run), settings(run)]);
     format!(

@@ -182,19 +182,31 @@ fn tracking(run: &Run, summary: &Summary) -> String {
             .to_owned();
     };
     let mut body = String::new();
+    let of = |list: &Option<Vec<f64>>, nth: usize| list.as_ref()?.get(nth).copied();
     for (nth, (max, rms)) in tracking.max_rad.iter().zip(&tracking.rms_rad).enumerate() {
+        let errors = [
+            Some(*max),
+            Some(*rms),
+            of(&tracking.delayed_max_rad, nth),
+            of(&tracking.delayed_rms_rad, nth),
+        ];
+        let cells = errors.map(|error| {
+            let error = units::optional(error, "rad");
+            format!("<td class=\"number\">{error}</td>")
+        });
         let _ = writeln!(
             body,
-            "<tr><th scope=\"row\">{}</th><td class=\"number\">{}</td><td class=\"number\">{}</td></tr>",
+            "<tr><th scope=\"row\">{}</th>{}</tr>",
             Escaped(&quantity::joint_name(run, nth + 1)),
-            units::quantity(*max, "rad"),
-            units::quantity(*rms, "rad"),
+            cells.concat(),
         );
     }
     let columns = [
         ("Joint", false),
         ("Largest tracking error", true),
         ("Root mean square", true),
+        ("Largest, delay taken out", true),
+        ("Root mean square, delay taken out", true),
     ];
     let delay = tracking.delay_s.map_or(String::new(), |delay_s| {
         format!(

@@ -46,10 +46,15 @@ fn run_drives_an_emulator_in_another_process() {
     let log = Rows::of(&folder.join("first"));
     assert_eq!(log.rows.len(), 126);
     assert!(log.header.ends_with(",q6_measured_rad,why"));
-    assert_eq!(
-        summary(&folder.join("first"))["settings"]["robot"],
-        "127.0.0.1"
-    );
+    let written = summary(&folder.join("first"));
+    assert_eq!(written["settings"]["robot"], "127.0.0.1");
+    let cycles = &written["cycles"];
+    assert_eq!(cycles["answer_us"]["count"], 126);
+    assert_eq!(cycles["period_us"]["count"], 125);
+    assert_eq!(cycles["missed"], written["deadline_misses"]);
+    assert_eq!(cycles["repeated"], 0);
+    let report = std::fs::read_to_string(folder.join("first/report.html")).unwrap();
+    assert!(report.contains("Cycles of the arm"));
 
     // The arm now stands elsewhere: it is not driven off to the start unasked.
     let second = run("second");
@@ -111,7 +116,7 @@ fn preflight_measures_an_emulator_in_another_process_and_moves_nothing() {
     let said = |part: &str| first.stdout.lines().any(|line| line.starts_with(part));
     assert!(verdict.into_iter().any(said), "{first:#?}");
     for part in [
-        "UR CB3",
+        "UR5 (CB3), software 3.15",
         "a run could start",
         "packages at 125 Hz",
         "lateness",
@@ -166,7 +171,7 @@ fn a_dry_run_goes_through_the_whole_scenario_and_moves_nothing() {
     assert_eq!(said.status, Some(1));
     assert!(
         said.stderr
-            .contains("error: reference-refused: reference 1 (t = 0.008 s): joint "),
+            .contains("error: reference-refused: reference 0 (t = 0.000 s): joint "),
         "{said:#?}"
     );
     assert!(

@@ -4,7 +4,9 @@ use std::collections::BTreeMap;
 use std::fmt::Write;
 use std::fs;
 use std::path::PathBuf;
+use std::time::Duration;
 
+use conik_sim::cycle_times::{CycleSummary, CycleTimes};
 use conik_sim::monitors::{JointMonitor, Monitors, Sighting, Verdict};
 use conik_sim::scenario::{
     Border, Control, Damping, GoalConfig, LimitsConfig, ModeRule, Recursion, RobotConfig, Scenario,
@@ -335,10 +337,13 @@ impl Invention {
                 max: 17.0,
             },
             deadline_misses: 0,
+            cycles: cycles(),
             tracking: Some(Tracking {
                 max_rad: vec![3e-4; self.joints],
                 rms_rad: vec![1e-4; self.joints],
                 delay_s: Some(0.1042),
+                delayed_max_rad: Some(vec![5e-5; self.joints]),
+                delayed_rms_rad: Some(vec![2e-5; self.joints]),
             }),
             speed_limited_ticks: 0,
             no_mode_ticks: 0,
@@ -347,6 +352,18 @@ impl Invention {
             step_work_max: StepWork::default(),
         }
     }
+}
+
+/// Packages every 8 ms, one of them late.
+fn cycles() -> Option<CycleSummary> {
+    let mut times = CycleTimes::default();
+    for cycle in 0..500 {
+        let jitter = if cycle == 300 { 20_000 } else { cycle % 70 };
+        times.came_after(Duration::from_micros(8000 + jitter));
+        times.answered_after(Duration::from_micros(40 + jitter));
+    }
+    times.missed(2);
+    times.summary()
 }
 
 /// Runs at the borders of what there is, by name.

@@ -14,7 +14,9 @@ use crate::session::{Session, SessionError};
 use crate::status::{Status, runtime_state};
 use crate::wire::Value;
 use conik_sim::arm::{ArmError, Feedback, Reference};
+use conik_sim::cycle_times::CycleTimes;
 use std::io::Write;
+use std::mem;
 use std::net::TcpStream;
 use std::thread;
 use std::time::{Duration, Instant};
@@ -38,6 +40,7 @@ pub(super) struct Link {
     /// What was sent last; a stop repeats it.
     sent: Sent,
     turn: Turn,
+    times: CycleTimes,
 }
 
 /// The values of the input registers.
@@ -113,6 +116,7 @@ impl Link {
                 qd: [0.0; JOINTS],
             },
             turn: Turn::FirstCycle,
+            times: CycleTimes::default(),
         };
         if config.dry_run {
             return Ok(link);
@@ -175,6 +179,15 @@ impl Link {
         &self.status
     }
 
+    /// How the cycles came and were answered so far.
+    pub(super) fn times(&self) -> &CycleTimes {
+        &self.times
+    }
+
+    pub(super) fn take_times(&mut self) -> CycleTimes {
+        mem::take(&mut self.times)
+    }
+
     /// The series and its software, for people.
     pub(super) fn series_name(&self) -> String {
         let version = self.session.version();
@@ -185,6 +198,7 @@ impl Link {
     pub(super) fn next_cycle(&mut self) -> Result<Feedback, ArmError> {
         let before = self.stamp();
         let passed_over = self.read()?;
+        self.count(before);
         let fault = if self.dry_run {
             plan::hindrance(&self.status)
         } else {
@@ -198,11 +212,25 @@ impl Link {
         } else {
             self.pace.missed(before, self.stamp(), passed_over)?
         };
+        self.times.missed(missed_cycles);
         self.turn = Turn::Reference;
         Ok(Feedback {
             q: Some(self.status.actual_q.into()),
             missed_cycles,
         })
+    }
+
+    /// Counts the package that has come; one that comes again is counted even if it ends the run.
+    fn count(&mut self, before: Stamp) {
+        if self.turn == Turn::FirstCycle {
+            return;
+        }
+        let now = self.stamp();
+        if now.timestamp <= before.timestamp {
+            self.times.repeated();
+        }
+        let period = now.came.saturating_duration_since(before.came);
+        self.times.came_after(period);
     }
 
     fn stamp(&self) -> Stamp {
@@ -229,10 +257,11 @@ impl Link {
             qd: checked.qd,
         };
         self.turn = Turn::Cycle;
-        if self.dry_run {
-            return Ok(());
+        if !self.dry_run {
+            self.write(Command::Servo)?;
         }
-        self.write(Command::Servo)
+        self.times.answered_after(self.status_came.elapsed());
+        Ok(())
     }
 
     /// Lets the servo program stop the arm and end, and waits until it has.

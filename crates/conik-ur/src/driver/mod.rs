@@ -31,6 +31,7 @@ pub use config::UrConfig;
 use crate::status::Status;
 use conik::JointVec;
 use conik_sim::arm::{Arm, ArmError, Feedback, Reference};
+use conik_sim::cycle_times::CycleTimes;
 use link::Link;
 use std::fmt;
 
@@ -45,6 +46,8 @@ pub struct UrArm {
     link: Option<Link>,
     fault: Option<ArmError>,
     warned: Listener,
+    /// Those of the link, once it is closed.
+    times: Option<CycleTimes>,
 }
 
 /// Takes in what is said.
@@ -76,6 +79,7 @@ impl UrArm {
             link: None,
             fault: None,
             warned: Listener::default(),
+            times: None,
         }
     }
 
@@ -151,7 +155,10 @@ impl Arm for UrArm {
 
     fn stop(&mut self) -> Result<(), ArmError> {
         match self.link.take() {
-            Some(link) => link.stop(),
+            Some(mut link) => {
+                self.times = Some(link.take_times());
+                link.stop()
+            }
             None => Ok(()),
         }
     }
@@ -178,6 +185,14 @@ impl Arm for UrArm {
 
     fn is_real_time(&self) -> bool {
         self.config.real_time
+    }
+
+    fn cycle_times(&self) -> Option<&CycleTimes> {
+        let times = match &self.link {
+            Some(link) => Some(link.times()),
+            None => self.times.as_ref(),
+        };
+        times.filter(|_| self.config.real_time)
     }
 }
 

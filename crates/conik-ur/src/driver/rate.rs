@@ -51,7 +51,9 @@ mod tests {
     fn a_controller_that_does_not_keep_the_rate_is_told_from_one_that_was_late() {
         let check = |steps: &[(f64, u64)]| {
             let mut rate = RateCheck::default();
-            steps.iter().for_each(|step| rate.add(step.0, step.1));
+            for step in steps {
+                rate.add(step.0, step.1);
+            }
             rate.check(0.002).map_err(|fault| fault.name)
         };
         assert_eq!(check(&[(0.002, 1); 10]), Ok(()));

@@ -77,6 +77,20 @@ fn a_link_that_ends_is_latched_by_name_and_nothing_moves_the_arm_any_more() {
     }
 }
 
+#[test]
+fn a_package_that_comes_again_ends_the_run_and_is_counted() {
+    let stub = Stub::start(Behaviour {
+        after: Some((3, |o| o.timestamp -= 0.008)),
+        ..Behaviour::default()
+    });
+    let mut arm = arm(&stub);
+    latches(&mut arm, "clock-jump");
+    arm.stop().unwrap();
+    let cycles = arm.cycle_times().unwrap().summary().unwrap();
+    assert_eq!((cycles.repeated, cycles.period_us.count), (1, 3));
+    stub.written();
+}
+
 /// Runs until the fault after the third reference, and tries to go on.
 fn latches(arm: &mut UrArm, name: &str) {
     let q = Behaviour::default().q;

@@ -20,6 +20,10 @@ fn references_arrive_in_order_and_bit_by_bit() {
         assert_eq!(run(&mut arm, &curve).unwrap(), 0, "missed cycles");
         arm.stop().unwrap();
         arm.stop().unwrap();
+        let cycles = arm.cycle_times().unwrap().summary().unwrap();
+        assert_eq!(cycles.answer_us.unwrap().count, u64::from(count));
+        assert_eq!(cycles.period_us.count, u64::from(count) - 1);
+        assert_eq!((cycles.missed, cycles.repeated), (0, 0));
         let written = stub.written();
         let arrived = references(&written);
         assert_eq!(arrived.len(), curve.len());
@@ -62,6 +66,8 @@ fn a_late_reader_takes_the_newest_package_and_counts_the_others() {
     // How many of the three are read at once is up to the network; none may go uncounted.
     let elapsed = arm.status().unwrap().timestamp - first;
     assert_eq!((elapsed * RATE).round(), (missed + cycles) as f64);
+    let counted = arm.cycle_times().unwrap().summary().unwrap();
+    assert_eq!(counted.missed, missed);
     drop(arm);
     stub.written();
 }
