@@ -7,13 +7,14 @@ use std::fs;
 use conik_cli::figure::{self, Run, sets};
 use invented_run::{Invention, strange_runs};
 
-const FILES: [&str; 6] = [
+const FILES: [&str; 7] = [
     "path.svg",
     "mode.svg",
     "sets.svg",
     "errors.svg",
     "joints.svg",
     "figure4.svg",
+    "cycles.svg",
 ];
 
 /// Draws the run and returns the pictures in the order of [`FILES`].
@@ -57,7 +58,7 @@ fn assert_well_formed(svg: &str, what: &str) {
 
 #[test]
 fn each_panel_shows_what_it_is_for() {
-    let [path, mode, sets, errors, joints, all] =
+    let [path, mode, sets, errors, joints, all, cycles] =
         drawn("usual", &Invention::default()).try_into().unwrap();
     for label in [
         "x [m]",
@@ -92,6 +93,15 @@ fn each_panel_shows_what_it_is_for() {
         assert!(joints.contains(label), "joints: {label}");
     }
     assert!(all.contains("tool path") && all.contains("active mode"));
+    for label in [
+        "time [µs]",
+        "cycles, log.",
+        "median 803",
+        "longest 28000 µs",
+        "1 beyond",
+    ] {
+        assert!(cycles.contains(label), "cycles: {label}: {cycles}");
+    }
 }
 
 #[test]

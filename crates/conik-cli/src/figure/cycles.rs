@@ -108,14 +108,12 @@ impl Bars {
         let Distribution {
             min,
             median,
-            p999,
+            p99,
             max,
             ..
         } = *distribution;
-        // Half as far again as the slowest of a thousand: a lone straggler is counted, not drawn.
-        let to = max
-            .min(p999 + 0.5 * (p999 - min).max(0.2 * median))
-            .max(min);
+        // Twice as wide as nearly all: a lone straggler is counted, not drawn.
+        let to = max.min(p99 + (p99 - min).max(0.1 * median));
         let width = nice_step(((to - min) / BARS).max(0.1));
         let from = (min / width).floor() * width;
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)] // Saturates.

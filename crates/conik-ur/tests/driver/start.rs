@@ -2,7 +2,7 @@
 
 use super::driving::{RATE, arm, config, curve, run};
 use crate::stub::dashboard::{Dashboard, NOT_KNOWN, Panel, WELL};
-use crate::stub::{Behaviour, Change, Stub};
+use crate::stub::{self, Behaviour, Stub};
 use conik_sim::arm::Arm;
 use conik_sim::scenario::{UrModel, UrSeries, UrSettings};
 use conik_ur::driver::{UrArm, UrConfig};
@@ -86,7 +86,7 @@ fn a_dry_run_does_everything_but_write() {
 
 #[test]
 fn a_dry_run_names_what_keeps_the_arm_from_moving() {
-    let cases: [(&str, Change); 4] = [
+    let cases: [(&str, stub::Change); 4] = [
         ("robot-not-running", |o| o.robot_mode = 3),
         ("other-program-running", |o| o.runtime_state = 2),
         ("other-program-running", |o| o.runtime_state = 4),
@@ -163,8 +163,11 @@ fn the_settings_of_a_scenario_are_taken_over() {
     assert_eq!(config.acceleration_limit, Some([20.0; 6]));
 }
 
+/// A change of the settings.
+type Change = fn(&mut UrConfig);
+
 /// How an arm with this dashboard starts, and the warnings meanwhile.
-fn started(panel: Panel, stub: &Stub, change: fn(&mut UrConfig)) -> (Option<&'static str>, String) {
+fn started(panel: Panel, stub: &Stub, change: Change) -> (Option<&'static str>, String) {
     let dashboard = Dashboard::start(panel);
     let mut config = UrConfig {
         dashboard_port: dashboard.port,
@@ -192,7 +195,7 @@ fn the_arms_model_and_remote_control_are_checked_at_every_start() {
     let ur10 = |config: &mut UrConfig| config.model = Some(UrModel::Ur10);
     let model = |model| Panel { model, ..WELL };
     let remote = |remote| Panel { remote, ..WELL };
-    let cases: [(Panel, fn(&mut UrConfig), Option<&str>, &str); 9] = [
+    let cases: [(Panel, Change, Option<&str>, &str); 9] = [
         (model("UR5"), ur5, None, ""),
         (model("UR5e"), ur5, None, ""),
         (model("UR10"), ur5, Some("wrong-arm"), ""),
