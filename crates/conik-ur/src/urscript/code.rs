@@ -1,6 +1,6 @@
 //! A program as the machine runs it: instructions for a stack of values.
 
-use super::builtin::Signature;
+use super::signature::Signature;
 use super::syntax::{Binary, Unary};
 use super::value::Value;
 

@@ -1,10 +1,10 @@
 //! Turns a program's parts into instructions, and refuses names that nothing stands behind.
 
-use super::builtin::Signature;
 use super::code::{Code, CodeOfFunction, Instruction};
 use super::error::{Fault, ScriptError};
 use super::parser::Whole;
 use super::scope;
+use super::signature::Signature;
 use super::syntax::{Action, Block, Call, Expression, Function, Scope, Statement};
 use super::value::Value;
 use std::collections::BTreeSet;

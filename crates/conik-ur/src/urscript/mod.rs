@@ -2,9 +2,9 @@
 //! and a refusal by name for the rest.
 //!
 //! ```text
-//!   text ── lexer ──► tokens ── parser ──► syntax ── compiler ──► code ── machine ──► calls
-//!                                                    scope                  value      builtin
-//!                                                                        surroundings
+//!   text ── lexer ──► tokens ── parser ──► syntax ── compiler ──► code ── machine ──► pauses
+//!                             expression              scope              value
+//!                                                     signature          builtin ──► surroundings
 //! ```
 //!
 //! | part | what there is |
@@ -14,7 +14,7 @@
 //! | values | integers of 32 bits, floats, `True` and `False`, texts, lists of these and of poses, poses `p[..]` |
 //! | operators | `or`, `xor`, `and`, `not`, comparisons, `+ - * / %`, elements `a[i]`; both operands are always evaluated |
 //! | arguments | by place or by name |
-//! | functions | those of the program that stand above the call, and of the controller those of `builtin` |
+//! | functions | those of the program that stand above the call, and of the controller those of `signature` |
 //!
 //! Time passes in `servoj`, `stopj`, `sleep` and `sync` only. A program that runs on without them
 //! for [`MOST_INSTRUCTIONS`] is over. A name that nothing stands behind, a wrong number of
@@ -26,14 +26,17 @@
 //! Where the maker's manual is silent the choice is the narrower one, so that what runs here may be
 //! expected to run on a controller.
 
+mod arguments;
 mod builtin;
 mod code;
 mod compiler;
 mod error;
+mod expression;
 mod lexer;
 mod machine;
 mod parser;
 mod scope;
+mod signature;
 mod surroundings;
 mod syntax;
 #[cfg(test)]
