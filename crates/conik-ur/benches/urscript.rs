@@ -102,12 +102,11 @@ fn times(program: &Program, every: usize) -> String {
         }
     }
     cycles.sort_unstable_by(f64::total_cmp);
-    let at = |share: f64| cycles[((CYCLES - 1) as f64 * share).round() as usize];
     format!(
         "median {:.2} us, p99 {:.2} us, max {:.2} us in {CYCLES} cycles",
-        at(0.5),
-        at(0.99),
-        at(1.0)
+        cycles[CYCLES / 2],
+        cycles[CYCLES / 100 * 99],
+        cycles[CYCLES - 1]
     )
 }
 

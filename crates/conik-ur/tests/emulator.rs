@@ -242,13 +242,35 @@ fn run_on(arm: &mut UrArm, tick: u32) {
 }
 
 #[test]
-fn any_other_program_is_refused_in_words() {
+fn a_program_that_is_not_emulated_is_refused_in_words_on_every_port() {
     let emulator = emulator(125.0);
+    let mut witness = RawClient::connect(&emulator);
+    witness.ask_for_phase();
+    witness.request(b'S', &[]);
+    assert_eq!(witness.package(), (b'S', vec![1]));
     let mut script = TcpStream::connect(("127.0.0.1", emulator.script_port())).unwrap();
+    let patience = Some(Duration::from_secs(20));
+    script.set_read_timeout(patience).unwrap();
     script
         .write_all(b"def other():\n  movej([0,0,0,0,0,0])\nend\n")
         .unwrap();
-    wait_for(&emulator, "program 'other' refused");
+    let refusal = "program 'other' refused: line 2: unknown function 'movej'";
+    wait_for(&emulator, refusal);
+    witness.expect_text(refusal);
+    // Among the messages of the port: a run-time exception (10) at line 2.
+    let message = std::iter::repeat_with(|| {
+        let mut header = [0; 5];
+        script.read_exact(&mut header).unwrap();
+        let size = u32::from_be_bytes([header[0], header[1], header[2], header[3]]);
+        let mut contents = vec![0; size as usize - header.len()];
+        script.read_exact(&mut contents).unwrap();
+        (header[4], contents)
+    })
+    .take(1000)
+    .find(|(kind, contents)| *kind == 20 && contents[9] == 10);
+    let contents = message.unwrap().1;
+    assert_eq!(contents[10..14], [0, 0, 0, 2]);
+    assert!(String::from_utf8_lossy(&contents[18..]).starts_with(refusal));
     assert_eq!(emulator.target_q(), Q0.into());
 }
 

@@ -6,13 +6,19 @@
 use super::config::Series;
 use super::controller::Controller;
 use super::kinematics::{self, LENGTHS, OFFSETS, TWISTS};
+use super::log::Message;
 use super::power::Power;
 use crate::registers::JOINTS;
 use crate::wire::ControllerVersion;
 
 const STATE: u8 = 16;
 const MESSAGE: u8 = 20;
+const TEXT_MESSAGE: u8 = 0;
 const VERSION_MESSAGE: u8 = 3;
+const RUNTIME_EXCEPTION: u8 = 10;
+
+/// Who a message is from: the controller.
+const CONTROLLER: u8 = 254;
 
 /// Bytes of the real-time package, by which readers tell the versions apart.
 fn real_time_size(series: Series) -> usize {
@@ -65,7 +71,7 @@ pub(super) fn version_message(version: ControllerVersion) -> Vec<u8> {
     let (project, date) = (b"URControl", b"01-01-2024, 00:00:00");
     let mut bytes = Bytes::default();
     bytes.doubles(&[]).0.extend(u64::MAX.to_be_bytes());
-    bytes.byte(254).byte(VERSION_MESSAGE).byte(9);
+    bytes.byte(CONTROLLER).byte(VERSION_MESSAGE).byte(9);
     bytes.0.extend(project);
     #[allow(clippy::cast_possible_truncation)] // Both are below ten.
     bytes.byte(version.major as u8).byte(version.minor as u8);
@@ -92,11 +98,28 @@ impl Controller {
         state.packed(STATE)
     }
 
+    /// A message for people, as the primary and secondary ports send it: a run-time exception with
+    /// line and column where it is about a line of a program, a text otherwise.
+    pub(super) fn robot_message(&self, message: &Message) -> Vec<u8> {
+        let mut bytes = Bytes::default();
+        bytes.0.extend(self.microseconds().to_be_bytes());
+        bytes.byte(CONTROLLER);
+        match message.script_line {
+            Some(line) => bytes.byte(RUNTIME_EXCEPTION).int(line).int(1),
+            None => bytes.byte(TEXT_MESSAGE),
+        };
+        bytes.0.extend(message.text.bytes());
+        bytes.packed(MESSAGE)
+    }
+
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)] // Time is positive.
+    fn microseconds(&self) -> u64 {
+        (self.timestamp() * 1e6) as u64
+    }
+
     fn mode_data(&self) -> Bytes {
         let mut bytes = Bytes::default();
-        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)] // Time is positive.
-        let microseconds = (self.timestamp() * 1e6) as u64;
-        bytes.0.extend(microseconds.to_be_bytes());
+        bytes.0.extend(self.microseconds().to_be_bytes());
         let (emergency, protective) = self.stops();
         bytes.flags(&[
             true,

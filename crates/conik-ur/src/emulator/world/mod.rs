@@ -1,29 +1,25 @@
 //! What all threads of the emulator share: the controller, its clients, and the wish to end.
 
-use super::config::{Fault, Pace};
+mod client;
+mod scripts;
+mod strike;
+
+use super::config::Pace;
 use super::controller::Controller;
 use super::faults::Network;
-use super::fields::InputField;
-use super::log::Message;
+use super::lock;
 use super::outbox::Outbox;
-use super::rtde::{Claims, RtdeClient};
-use super::running::Running;
-use super::{lock, script_port};
+use super::rtde::Claims;
 use crate::wire::{ControllerVersion, Frame, Reply, TextLevel, TextMessage};
-use std::collections::{BTreeMap, VecDeque};
+use client::Client;
+use std::collections::BTreeMap;
 use std::net::{Shutdown, TcpStream};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
-use std::thread::{self, JoinHandle};
+use std::thread::JoinHandle;
 use std::time::Duration;
-
-/// Programs that open sockets at a time; only the last of them runs.
-const MOST_DIALLERS: usize = 8;
 
 /// How often the primary and secondary ports send the state [Hz].
 const STATE_HZ: f64 = 10.0;
-
-/// Who writes an input that a fieldbus has claimed; clients are numbered from 1.
-const FIELDBUS: u64 = 0;
 
 /// Shared by all threads.
 #[derive(Debug)]
@@ -53,21 +49,6 @@ pub(super) struct World {
     /// Whether a program ran in the last cycle.
     program_ran: bool,
     pub(super) is_closing: bool,
-}
-
-/// An RTDE client.
-#[derive(Debug)]
-struct Client {
-    rtde: RtdeClient,
-    outbox: Arc<Outbox>,
-    /// Packages under way, each with the cycle in which it goes out.
-    under_way: VecDeque<(u64, Vec<u8>)>,
-    /// The connection is half open: it neither hears nor is heard.
-    is_silent: bool,
-    /// In lockstep: it was sent a package and has not answered yet.
-    owes_an_answer: bool,
-    /// In lockstep: its program has ended, so it is not waited for any more.
-    is_done: bool,
 }
 
 /// A client of another port.
@@ -122,14 +103,7 @@ impl World {
     /// Makes an admitted connection an RTDE client.
     pub(super) fn add_client(&mut self, id: u64) -> Arc<Outbox> {
         let outbox = self.new_outbox();
-        let client = Client {
-            rtde: RtdeClient::new(id),
-            outbox: Arc::clone(&outbox),
-            under_way: VecDeque::new(),
-            is_silent: false,
-            owes_an_answer: false,
-            is_done: false,
-        };
+        let client = Client::new(id, Arc::clone(&outbox));
         self.clients.insert(id, client);
         self.controller.note(&format!("client {id} connected"));
         outbox
@@ -150,57 +124,6 @@ impl World {
         };
         self.listeners.insert(id, listener);
         outbox
-    }
-
-    /// Brings a fault about.
-    pub(super) fn strike(&mut self, fault: Fault) {
-        let cycles = |seconds: f64| {
-            #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)] // Saturates.
-            let cycles = (seconds.max(0.0) * self.controller.rate_hz).round() as u64;
-            cycles
-        };
-        let line = format!("fault: {fault:?}");
-        match fault {
-            Fault::Event(injection) => self.controller.inject(injection),
-            Fault::ClockJump(seconds) => self.controller.clock_jump_s += seconds,
-            Fault::Drop(probability) => self.network.drop = probability,
-            Fault::Delay(seconds) => self.network.delay = cycles(seconds),
-            Fault::Jitter(seconds) => self.network.jitter = cycles(seconds),
-            Fault::Freeze(seconds) => {
-                self.network.frozen_until =
-                    self.controller.cycles().saturating_add(cycles(seconds));
-            }
-            Fault::Reset => {
-                for id in self.clients.keys() {
-                    if let Some(stream) = self.connections.get(id) {
-                        // One that is shut already is what we want.
-                        let _ = stream.shutdown(Shutdown::Both);
-                    }
-                }
-            }
-            Fault::HalfOpen => {
-                for client in self.clients.values_mut() {
-                    client.is_silent = true;
-                    client.owes_an_answer = false;
-                }
-            }
-            Fault::RegisterInUse(name) => match InputField::from_name(&name) {
-                Some(field) => {
-                    self.claims.insert(field, FIELDBUS);
-                }
-                None => self.controller.note(&format!("there is no input '{name}'")),
-            },
-            Fault::BadPackages(count) => self.network.bad_packages = count,
-            Fault::OneByte(on) => {
-                self.one_byte = on;
-                let clients = self.clients.values().map(|client| &client.outbox);
-                let listeners = self.listeners.values().map(|listener| &listener.outbox);
-                clients
-                    .chain(listeners)
-                    .for_each(|outbox| outbox.set_one_byte(on));
-            }
-        }
-        self.controller.note(&line);
     }
 
     /// Offers the state to those who hear it.
@@ -233,6 +156,12 @@ impl World {
             for client in self.clients.values().filter(listening) {
                 client.answer(&reply);
             }
+            let package = self.controller.robot_message(&message);
+            for listener in self.listeners.values() {
+                if listener.hears == Hears::State {
+                    listener.outbox.answer(package.clone());
+                }
+            }
         }
     }
 
@@ -252,26 +181,6 @@ impl World {
     #[cfg(test)]
     pub(super) fn connection_count(&self) -> usize {
         self.connections.len()
-    }
-
-    /// Opens the sockets that the program wants, if it wants any.
-    fn dial(&mut self) {
-        let calls = self.controller.running.as_ref().and_then(Running::calls);
-        let Some(calls) = calls.filter(|calls| calls.claim()).map(Arc::clone) else {
-            return;
-        };
-        self.diallers.retain(|thread| !thread.is_finished());
-        let thread = (self.diallers.len() < MOST_DIALLERS).then(|| {
-            thread::Builder::new()
-                .name("emulator dialler".to_owned())
-                .spawn(move || calls.dial())
-        });
-        match thread {
-            Some(Ok(thread)) => self.diallers.push(thread),
-            _ => self
-                .controller
-                .end_program("too many programs open sockets"),
-        }
     }
 
     /// The threads that still open sockets, to wait for after [`Self::close`].
@@ -306,29 +215,10 @@ impl World {
         self.tell_listeners();
         let partner = self.partner().filter(|_| pace == Pace::Lockstep);
         for (id, client) in &mut self.clients {
-            let cycle = self.controller.cycles();
-            if client.is_silent {
-                continue;
-            }
-            if client.rtde.is_due(cycle)
-                && let Some(departure) = self.network.departure(cycle)
-                && let Some(mut package) = client.rtde.package(&self.controller)
-            {
-                self.network.spoil(&mut package);
-                // One stream keeps its order, however long each package waits.
-                let last = client.under_way.back().map_or(0, |(last, _)| *last);
-                client.under_way.push_back((departure.max(last), package));
-            }
-            while client
-                .under_way
-                .front()
-                .is_some_and(|(departure, _)| *departure <= cycle)
-                && let Some((_, package)) = client.under_way.pop_front()
-            {
-                client.outbox.offer(package);
+            if client.send_due(&self.controller, &mut self.network) {
                 client.owes_an_answer = partner == Some(*id) && !ended;
             }
-            client.is_done |= partner == Some(*id) && ended;
+            client.is_done |= !client.is_silent && partner == Some(*id) && ended;
         }
     }
 
@@ -390,36 +280,6 @@ impl Shared {
         }
     }
 
-    /// Acts on a program of a client of the script port.
-    pub(super) fn run_script(&self, text: &str) {
-        let hindrance = {
-            let world = &mut *lock(&self.world);
-            if run_command(&mut world.controller, text.trim()) || world.is_closing {
-                return;
-            }
-            world.controller.why_no_program()
-        };
-        // Read while the clock goes on, then begun.
-        let program = match hindrance {
-            Some(reason) => Err(reason.into()),
-            None => Running::read(text),
-        };
-        let world = &mut *lock(&self.world);
-        if world.is_closing {
-            return;
-        }
-        let started = program.and_then(|program| Ok(world.controller.start(program)?));
-        world.dial();
-        if let Err(refusal) = started {
-            let name = script_port::name_of(text);
-            world.controller.tell(Message {
-                text: format!("program '{name}' refused: {}", refusal.reason),
-                script_line: refusal.script_line,
-            });
-        }
-        world.tell_clients();
-    }
-
     /// Waits, at most for `time`, until something happens.
     pub(super) fn wait<'a>(
         &self,
@@ -431,37 +291,4 @@ impl Shared {
             .unwrap_or_else(PoisonError::into_inner)
             .0
     }
-}
-
-impl Client {
-    fn answer(&self, reply: &Reply) {
-        if let Some(bytes) = self.rtde.to_bytes(reply) {
-            self.outbox.answer(bytes);
-        }
-    }
-}
-
-/// The short commands that the primary port takes beside programs.
-fn run_command(controller: &mut Controller, line: &str) -> bool {
-    match line {
-        "power on" => {
-            controller.power_on();
-        }
-        "power off" => controller.power_off(),
-        "set robotmode run" => {
-            controller.release_brakes();
-        }
-        "set unlock protective stop" => {
-            if let Err(left) = controller.unlock_protective_stop() {
-                controller.note(&format!("unlock refused for {left:.1} s more"));
-            }
-        }
-        "stop program" => {
-            if controller.program_runs() {
-                controller.end_program("program stopped from the network");
-            }
-        }
-        _ => return false,
-    }
-    true
 }
