@@ -159,6 +159,9 @@ pub struct EmulateArguments {
     /// Which series of controllers to be: `cb3` (125 Hz) or `e` (500 Hz)
     #[arg(long, value_enum, default_value_t = SeriesArgument::E)]
     pub series: SeriesArgument,
+    /// Which arm to be: `ur3`, `ur5`, `ur10`; with `--series e` also `ur16`, `ur20`, `ur30`
+    #[arg(long, value_name = "MODEL", default_value = "ur5")]
+    pub model: String,
     /// Added to every port
     #[arg(long, value_name = "N", default_value_t = 0)]
     pub port_offset: u16,

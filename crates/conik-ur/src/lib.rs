@@ -55,6 +55,7 @@
 
 pub mod driver;
 pub mod emulator;
+pub mod model;
 pub mod program;
 pub mod realtime;
 pub mod registers;

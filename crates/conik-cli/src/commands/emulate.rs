@@ -5,8 +5,9 @@ use std::sync::atomic::Ordering;
 use std::time::Duration;
 
 use conik::JointVec;
-use conik_sim::scenario::Scenario;
-use conik_ur::emulator::{Emulator, EmulatorConfig, Ports, Series, faults};
+use conik_sim::scenario::{Scenario, UrModel, UrSeries};
+use conik_ur::emulator::{Emulator, EmulatorConfig, Ports, faults};
+use conik_ur::model::ArmFacts;
 
 use crate::arguments::{EmulateArguments, SeriesArgument};
 use crate::failure::Failure;
@@ -25,17 +26,13 @@ pub fn emulate(arguments: &EmulateArguments) -> Result<ExitCode, Failure> {
         }
         None => JointVec::from(HOME_DEG.map(f64::to_radians)),
     };
-    let series = match arguments.series {
-        SeriesArgument::Cb3 => Series::Cb3,
-        SeriesArgument::E => Series::E,
-    };
     let config = EmulatorConfig {
         listen: arguments.listen,
         remote_control: !arguments.local,
         ports: Ports::Real {
             offset: arguments.port_offset,
         },
-        ..EmulatorConfig::new(series, q0)
+        ..EmulatorConfig::of(arm(arguments)?, q0)
     };
     let faults: Vec<_> = arguments
         .fault
@@ -71,4 +68,26 @@ pub fn emulate(arguments: &EmulateArguments) -> Result<ExitCode, Failure> {
         last = lines.last().cloned().or(last);
     }
     Ok(ExitCode::SUCCESS)
+}
+
+/// The arm that is asked for.
+fn arm(arguments: &EmulateArguments) -> Result<&'static ArmFacts, Failure> {
+    let (series, name) = match arguments.series {
+        SeriesArgument::Cb3 => (UrSeries::Cb3, "cb3"),
+        SeriesArgument::E => (UrSeries::ESeries, "e"),
+    };
+    UrModel::in_name(&arguments.model)
+        .and_then(|model| ArmFacts::of(model, series))
+        .ok_or_else(|| {
+            let known: Vec<String> = ArmFacts::ALL
+                .iter()
+                .filter(|arm| arm.series == series)
+                .map(|arm| arm.name().to_ascii_lowercase())
+                .collect();
+            Failure::input(format!(
+                "--model {}: no such arm with --series {name}; there are {}",
+                arguments.model,
+                known.join(", ")
+            ))
+        })
 }

@@ -181,6 +181,20 @@ fn bad_option_is_named() {
 }
 
 #[test]
+fn arm_that_a_series_does_not_have_is_refused_with_those_that_it_has() {
+    let folder = empty_folder("no such arm");
+    for (options, says) in [
+        ("--model ur20 --series cb3", "there are ur3, ur5, ur10"),
+        ("--model ur6", "ur16e, ur20, ur30"),
+        ("--model arm", "--model arm: no such arm"),
+    ] {
+        let said = say(&folder, &format!("emulate {options}"));
+        assert_refused(&said, &folder);
+        assert!(said.stderr.contains(says), "{options}: {}", said.stderr);
+    }
+}
+
+#[test]
 fn option_that_spoils_another_key_names_that_key() {
     let folder = empty_folder("spoiling option");
     let text = fs::read_to_string(paper("example2")).unwrap();

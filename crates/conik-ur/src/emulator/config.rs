@@ -6,7 +6,9 @@ use std::f64::consts::PI;
 use std::io::{self, ErrorKind};
 use std::net::{IpAddr, Ipv4Addr};
 
+use crate::model::ArmFacts;
 use crate::wire::ControllerVersion;
+use conik_sim::scenario::{UrModel, UrSeries};
 
 /// The series of a controller: its rate and its software's version.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -18,6 +20,14 @@ pub enum Series {
 }
 
 impl Series {
+    /// The series of an arm.
+    pub fn of(arm: &ArmFacts) -> Self {
+        match arm.series {
+            UrSeries::Cb3 => Self::Cb3,
+            UrSeries::ESeries => Self::E,
+        }
+    }
+
     /// The rate of a real controller of this series [Hz].
     pub fn rate_hz(self) -> f64 {
         match self {
@@ -72,6 +82,8 @@ pub enum Pace {
 pub struct EmulatorConfig {
     /// What to call the arm in front of people.
     pub name: String,
+    /// The arm, of the same series.
+    pub arm: &'static ArmFacts,
     /// The series that it claims to be.
     pub series: Series,
     /// Control rate [Hz], 1 to 1000; a real controller has [`Series::rate_hz`].
@@ -98,10 +110,19 @@ pub struct EmulatorConfig {
 }
 
 impl EmulatorConfig {
-    /// An arm at `q0` [rad] on free ports of this computer, at its series' rate, in wall time.
+    /// A UR5 or UR5e at `q0` [rad] on free ports of this computer, at its series' rate, in wall time.
     pub fn new(series: Series, q0: JointVec) -> Self {
+        let ur5 = |arm: &&'static ArmFacts| arm.model == UrModel::Ur5 && Series::of(arm) == series;
+        let arm = ArmFacts::ALL.iter().find(ur5);
+        Self::of(arm.unwrap_or(&ArmFacts::ALL[0]), q0)
+    }
+
+    /// This arm at `q0` [rad], likewise.
+    pub fn of(arm: &'static ArmFacts, q0: JointVec) -> Self {
+        let series = Series::of(arm);
         Self {
-            name: "emulated UR5".to_owned(),
+            name: format!("emulated {}", arm.name()),
+            arm,
             series,
             rate_hz: series.rate_hz(),
             q0,
@@ -167,6 +188,12 @@ pub enum EmulatorError {
     /// A UR arm has six joints.
     #[error("q0 has {0} joints; a UR arm has 6")]
     JointCount(usize),
+    /// An arm of the other series.
+    #[error("{arm} is no arm of the controller's series")]
+    OtherSeries {
+        /// Its name.
+        arm: String,
+    },
     /// A setting outside of what is possible.
     #[error("the emulator's {name} is {value}; it must be {need}")]
     BadSetting {

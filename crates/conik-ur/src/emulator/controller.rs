@@ -9,6 +9,7 @@ use super::registers::Registers;
 use super::running::Running;
 use super::script_program::Mounted;
 use super::watchdog::Watchdogs;
+use crate::model::ArmFacts;
 use crate::registers::JOINTS;
 use crate::wire::Value;
 
@@ -27,6 +28,8 @@ pub(super) enum Safety {
 #[derive(Debug)]
 pub(super) struct Controller {
     pub(super) series: Series,
+    /// What is known of the arm.
+    pub(super) facts: &'static ArmFacts,
     pub(super) remote_control: bool,
     pub(super) rate_hz: f64,
     /// Control cycles since the start, which the clock counts.
@@ -57,6 +60,7 @@ impl Controller {
     pub(super) fn new(config: &EmulatorConfig) -> Result<Self, EmulatorError> {
         Ok(Self {
             series: config.series,
+            facts: config.arm,
             remote_control: config.remote_control,
             rate_hz: config.rate_hz,
             cycles: 0,

@@ -118,7 +118,7 @@ fn state(controller: &Controller, line: &str) -> Option<String> {
         },
         "getuserrole" => "PROGRAMMER".to_owned(),
         "get serial number" => "20240000001".to_owned(),
-        "get robot model" => "UR5".to_owned(),
+        "get robot model" => controller.facts.model_name(),
         "get operational mode" => "NONE".to_owned(),
         _ => return None,
     })

@@ -1,32 +1,27 @@
-//! Where the tool is: forward kinematics from the published Denavit-Hartenberg parameters of the UR5.
+//! Where the tool is: forward kinematics from the arm's published Denavit-Hartenberg parameters.
 
+use crate::model::{ArmFacts, TWISTS};
 use crate::registers::JOINTS;
-use std::f64::consts::FRAC_PI_2;
-
-/// Link lengths a, offsets d [m] and twists α [rad], joint by joint.
-pub(super) const LENGTHS: [f64; JOINTS] = [0.0, -0.425, -0.39225, 0.0, 0.0, 0.0];
-pub(super) const OFFSETS: [f64; JOINTS] = [0.089_159, 0.0, 0.0, 0.109_15, 0.094_65, 0.0823];
-pub(super) const TWISTS: [f64; JOINTS] = [FRAC_PI_2, 0.0, 0.0, FRAC_PI_2, -FRAC_PI_2, 0.0];
 
 /// Rotation by rows, and position [m].
 type Frame = ([[f64; 3]; 3], [f64; 3]);
 
 /// Position [m] and rotation vector [rad] of the flange in the base.
-pub(super) fn pose(q: &[f64; JOINTS]) -> [f64; 6] {
-    let (rotation, p) = frames(q)[JOINTS];
+pub(super) fn pose(arm: &ArmFacts, q: &[f64; JOINTS]) -> [f64; 6] {
+    let (rotation, p) = frames(arm, q)[JOINTS];
     let w = rotation_vector(&rotation);
     [p[0], p[1], p[2], w[0], w[1], w[2]]
 }
 
 /// Linear [m/s] and angular [rad/s] velocity of the flange in the base.
-pub(super) fn twist(q: &[f64; JOINTS], qd: &[f64; JOINTS]) -> [f64; 6] {
-    let frames = frames(q);
+pub(super) fn twist(arm: &ArmFacts, q: &[f64; JOINTS], qd: &[f64; JOINTS]) -> [f64; 6] {
+    let frames = frames(arm, q);
     let (_, tool) = frames[JOINTS];
     let mut twist = [0.0; 6];
     for ((rotation, origin), speed) in frames.iter().zip(qd) {
         let axis = [rotation[0][2], rotation[1][2], rotation[2][2]];
-        let arm = std::array::from_fn(|i| tool[i] - origin[i]);
-        let moved = cross(&axis, &arm);
+        let lever = std::array::from_fn(|i| tool[i] - origin[i]);
+        let moved = cross(&axis, &lever);
         for i in 0..3 {
             twist[i] += moved[i] * speed;
             twist[3 + i] += axis[i] * speed;
@@ -36,14 +31,15 @@ pub(super) fn twist(q: &[f64; JOINTS], qd: &[f64; JOINTS]) -> [f64; 6] {
 }
 
 /// The frame before each joint and, last, that of the flange.
-fn frames(q: &[f64; JOINTS]) -> [Frame; JOINTS + 1] {
+fn frames(arm: &ArmFacts, q: &[f64; JOINTS]) -> [Frame; JOINTS + 1] {
     let identity = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
     let mut frames = [(identity, [0.0; 3]); JOINTS + 1];
     for joint in 0..JOINTS {
         let (rotation, origin) = frames[joint];
         let ((s, c), (sa, ca)) = (q[joint].sin_cos(), TWISTS[joint].sin_cos());
         let turn = [[c, -s * ca, s * sa], [s, c * ca, -c * sa], [0.0, sa, ca]];
-        let step = [LENGTHS[joint] * c, LENGTHS[joint] * s, OFFSETS[joint]];
+        let length = arm.lengths[joint];
+        let step = [length * c, length * s, arm.offsets[joint]];
         let next = std::array::from_fn(|row| {
             std::array::from_fn(|column| (0..3).map(|k| rotation[row][k] * turn[k][column]).sum())
         });
@@ -96,11 +92,17 @@ fn rotation_vector(r: &[[f64; 3]; 3]) -> [f64; 3] {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use conik_sim::scenario::{UrModel, UrSeries};
+    use std::f64::consts::FRAC_PI_2;
+
+    fn ur5() -> &'static ArmFacts {
+        ArmFacts::of(UrModel::Ur5, UrSeries::Cb3).unwrap()
+    }
 
     /// At zero the maker's model stretches along −x with the tool towards −y.
     #[test]
     fn the_arm_at_zero_is_stretched() {
-        let pose = pose(&[0.0; 6]);
+        let pose = pose(ur5(), &[0.0; 6]);
         let expected = [-0.81725, -0.191_45, -0.005_491, FRAC_PI_2, 0.0, 0.0];
         for (have, need) in pose.iter().zip(expected) {
             assert!((have - need).abs() < 1e-9, "{pose:?}");
@@ -113,12 +115,13 @@ mod tests {
         let qd = [0.5, -0.3, 0.2, 0.7, -0.6, 0.4];
         let h = 1e-6;
         let at = |side: f64| {
-            pose(&std::array::from_fn(|joint| {
-                q[joint] + side * h * qd[joint]
-            }))
+            pose(
+                ur5(),
+                &std::array::from_fn(|joint| q[joint] + side * h * qd[joint]),
+            )
         };
         let (before, after) = (at(-1.0), at(1.0));
-        let twist = twist(&q, &qd);
+        let twist = twist(ur5(), &q, &qd);
         for axis in 0..3 {
             let slope = (after[axis] - before[axis]) / (2.0 * h);
             assert!((slope - twist[axis]).abs() < 1e-8, "axis {axis}");

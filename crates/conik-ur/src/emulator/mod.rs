@@ -253,6 +253,10 @@ fn check(config: &EmulatorConfig) -> Result<(), EmulatorError> {
     if config.q0.len() != JOINTS {
         return Err(EmulatorError::JointCount(config.q0.len()));
     }
+    if Series::of(config.arm) != config.series {
+        let arm = config.arm.name();
+        return Err(EmulatorError::OtherSeries { arm });
+    }
     let positive = f64::MIN_POSITIVE..=f64::MAX;
     let settings = [
         ("rate [Hz]", config.rate_hz, 1.0..=1000.0, "1 to 1000"),

@@ -17,12 +17,19 @@ impl Controller {
             OutputField::TargetQdd => Value::Vector6d(self.arm.qdd()),
             OutputField::ActualQ => Value::Vector6d(self.arm.actual_q()),
             OutputField::ActualQd => Value::Vector6d(self.arm.actual_qd()),
-            OutputField::TargetTcpPose => Value::Vector6d(kinematics::pose(&self.arm.q())),
-            OutputField::TargetTcpSpeed => {
-                Value::Vector6d(kinematics::twist(&self.arm.q(), &self.target_qd()))
+            OutputField::TargetTcpPose => {
+                Value::Vector6d(kinematics::pose(self.facts, &self.arm.q()))
             }
-            OutputField::ActualTcpPose => Value::Vector6d(kinematics::pose(&self.arm.actual_q())),
+            OutputField::TargetTcpSpeed => Value::Vector6d(kinematics::twist(
+                self.facts,
+                &self.arm.q(),
+                &self.target_qd(),
+            )),
+            OutputField::ActualTcpPose => {
+                Value::Vector6d(kinematics::pose(self.facts, &self.arm.actual_q()))
+            }
             OutputField::ActualTcpSpeed => Value::Vector6d(kinematics::twist(
+                self.facts,
                 &self.arm.actual_q(),
                 &self.arm.actual_qd(),
             )),

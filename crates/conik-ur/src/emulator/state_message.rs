@@ -5,9 +5,10 @@
 
 use super::config::Series;
 use super::controller::Controller;
-use super::kinematics::{self, LENGTHS, OFFSETS, TWISTS};
+use super::kinematics;
 use super::log::Message;
 use super::power::Power;
+use crate::model::{ArmFacts, TWISTS};
 use crate::registers::JOINTS;
 use crate::wire::ControllerVersion;
 
@@ -90,7 +91,7 @@ impl Controller {
             (2, tool_data()),
             (3, masterboard_data(self)),
             (4, self.cartesian_data()),
-            (5, kinematics_data()),
+            (5, kinematics_data(self.facts)),
             (6, self.configuration_data()),
         ] {
             state.0.extend(contents.packed(kind));
@@ -165,7 +166,7 @@ impl Controller {
 
     fn cartesian_data(&self) -> Bytes {
         let mut bytes = Bytes::default();
-        bytes.doubles(&kinematics::pose(&self.arm.actual_q()));
+        bytes.doubles(&kinematics::pose(self.facts, &self.arm.actual_q()));
         bytes.doubles(&[0.0; 6]);
         bytes
     }
@@ -181,10 +182,10 @@ impl Controller {
             bytes.doubles(&[model.speed_limit, model.acceleration_limit]);
         }
         bytes.doubles(&[1.05, 1.4, 0.25, 1.2, 0.25]);
-        bytes.doubles(&LENGTHS).doubles(&OFFSETS).doubles(&TWISTS);
+        parameters(&mut bytes, self.facts);
         bytes.doubles(&[0.0; JOINTS]);
-        // Masterboard version, controller box, robot type 2 (UR5), subtype 0.
-        bytes.int(0).int(0).int(2).int(0);
+        // Masterboard version, controller box, robot type, subtype.
+        bytes.int(0).int(0).int(self.facts.type_number()).int(0);
         bytes
     }
 
@@ -193,8 +194,8 @@ impl Controller {
         let (q, qd, qdd) = (self.arm.q(), self.target_qd(), self.arm.qdd());
         let (actual_q, actual_qd) = (self.arm.actual_q(), self.arm.actual_qd());
         let (pose, speed) = (
-            kinematics::pose(&actual_q),
-            kinematics::twist(&actual_q, &actual_qd),
+            kinematics::pose(self.facts, &actual_q),
+            kinematics::twist(self.facts, &actual_q, &actual_qd),
         );
         let zeros = [0.0; 6];
         let mut values = Bytes::default();
@@ -204,8 +205,8 @@ impl Controller {
         }
         values.doubles(&pose).doubles(&speed).doubles(&zeros);
         values
-            .doubles(&kinematics::pose(&q))
-            .doubles(&kinematics::twist(&q, &qd));
+            .doubles(&kinematics::pose(self.facts, &q))
+            .doubles(&kinematics::twist(self.facts, &q, &qd));
         values
             .doubles(&[0.0])
             .doubles(&[25.0; 6])
@@ -262,13 +263,21 @@ fn masterboard_data(controller: &Controller) -> Bytes {
     bytes
 }
 
-fn kinematics_data() -> Bytes {
+/// a, d and α of each joint.
+fn parameters(bytes: &mut Bytes, arm: &ArmFacts) {
+    bytes
+        .doubles(&arm.lengths)
+        .doubles(&arm.offsets)
+        .doubles(&TWISTS);
+}
+
+fn kinematics_data(arm: &ArmFacts) -> Bytes {
     let mut bytes = Bytes::default();
     for joint in 1..=6 {
         bytes.int(joint);
     }
     bytes.doubles(&[0.0; JOINTS]);
-    bytes.doubles(&LENGTHS).doubles(&OFFSETS).doubles(&TWISTS);
+    parameters(&mut bytes, arm);
     bytes.int(1);
     bytes
 }
@@ -306,6 +315,28 @@ mod tests {
                 (6, 445),
             ];
             assert_eq!(sizes, published, "{series:?}");
+        }
+    }
+
+    /// The last sub-package: parameters of the arm, four zero-filled or fixed words apart.
+    #[test]
+    fn the_configuration_tells_the_arm_that_it_is() {
+        for (arm, number) in [("UR5", 1), ("UR10e", 2), ("UR20", 7)] {
+            let arm = ArmFacts::ALL.iter().find(|known| known.name() == arm);
+            let arm = arm.unwrap();
+            let config = EmulatorConfig::of(arm, JointVec::zeros(JOINTS));
+            let message = Controller::new(&config).unwrap().state_message();
+            let configuration = &message[message.len() - 445..];
+            let double = |at: usize| {
+                let bytes = configuration[at..].first_chunk::<8>().unwrap();
+                f64::from_be_bytes(*bytes)
+            };
+            // Size and kind, 12 pairs, 5 defaults; then a and d.
+            let lengths = 5 + 8 * (24 + 5);
+            assert_eq!(double(lengths + 8), arm.lengths[1]);
+            assert_eq!(double(lengths + 8 * JOINTS), arm.offsets[0]);
+            let said = configuration[445 - 8..].first_chunk::<4>().unwrap();
+            assert_eq!(u32::from_be_bytes(*said), number, "{}", arm.name());
         }
     }
 
