@@ -91,6 +91,15 @@ impl Servo {
         Ok(())
     }
 
+    /// The joint (from 0) that needs most speed to follow `q_ref` [rad], and that speed [rad/s]:
+    /// |`q_ref` − q| / L, which to a steady ramp is the ramp's own speed.
+    pub fn speed_needed(&self, q_ref: &JointVec) -> Option<(usize, f64)> {
+        let joints = q_ref.iter().zip(self.q.iter()).enumerate();
+        joints
+            .map(|(joint, (to, from))| (joint, (to - from).abs() / self.model.lookahead_s))
+            .max_by(|a, b| a.1.total_cmp(&b.1))
+    }
+
     /// Lets the joints follow `q_ref` [rad], held constant, for `duration` [s].
     ///
     /// Joints beyond the length of `q_ref` hold their speed; the caller gives one entry per joint.
@@ -227,6 +236,26 @@ mod tests {
                     "{tuning:?}: {acceleration} rad/s²"
                 );
             }
+        }
+    }
+
+    #[test]
+    fn the_speed_needed_for_a_steady_ramp_is_the_ramps_own() {
+        let (speed, cycle) = (0.5, 0.002);
+        for tuning in TUNINGS {
+            let mut servo = Servo::at_rest(tuned(tuning), JointVec::zeros(6)).unwrap();
+            let mut reference = JointVec::zeros(6);
+            for tick in 0..4000 {
+                reference[4] = speed * cycle * f64::from(tick);
+                servo.follow(&reference, cycle);
+            }
+            let (joint, needed) = servo.speed_needed(&reference).unwrap();
+            assert_eq!(joint, 4);
+            // The reference stands still for a cycle, and the arm comes nearer.
+            assert!(
+                (needed - speed).abs() <= speed * cycle / tuning.0,
+                "{needed}"
+            );
         }
     }
 

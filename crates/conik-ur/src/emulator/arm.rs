@@ -1,6 +1,7 @@
 //! The arm: six joints behind a servo, and how they follow, brake, or refuse to jump.
 
 use super::config::EmulatorConfig;
+use super::following::{Following, NotFollowed};
 use crate::registers::JOINTS;
 use conik::JointVec;
 use conik_sim::servo::{BadServoModel, Servo, ServoModel};
@@ -23,23 +24,12 @@ pub(super) enum Motion {
     Brake(f64),
 }
 
-/// A target too far from the last one.
-#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
-#[error("sudden change in target position: joint {joint} by {step} rad")]
-pub(super) struct Jump {
-    /// Counted from 1.
-    joint: usize,
-    step: f64,
-}
-
 #[derive(Debug)]
 pub(super) struct Arm {
     servo: Servo,
     /// Position and velocity one cycle ago: what the arm measures.
     actual: ([f64; JOINTS], [f64; JOINTS]),
-    /// Target of the last `servoj`.
-    last_target: Option<[f64; JOINTS]>,
-    largest_step: f64,
+    following: Following,
     stop_deceleration: f64,
 }
 
@@ -55,8 +45,7 @@ impl Arm {
         Ok(Self {
             servo: Servo::at_rest(model, config.q0)?,
             actual: (six(&config.q0), [0.0; JOINTS]),
-            last_target: None,
-            largest_step: config.largest_step,
+            following: Following::new(config.largest_step, config.overspeed_s, config.rate_hz),
             stop_deceleration: config.stop_deceleration,
         })
     }
@@ -66,55 +55,46 @@ impl Arm {
         self.actual = (self.q(), self.qd(slider));
     }
 
-    /// One control cycle of a motion. A target too far away is not followed: the arm brakes.
-    pub(super) fn follow(&mut self, motion: Motion, cycle_s: f64, slider: f64) -> Result<(), Jump> {
-        let jump = match motion {
+    /// One control cycle of a motion. Before a target that cannot be followed the arm brakes.
+    pub(super) fn follow(
+        &mut self,
+        motion: Motion,
+        cycle_s: f64,
+        slider: f64,
+    ) -> Result<(), NotFollowed> {
+        let (deceleration, followed) = match motion {
             Motion::Servo {
                 target,
                 lookahead_s,
                 gain,
-            } => match self.jump(&target) {
-                None => {
-                    // Within servoj's ranges, so that no servo refuses them.
-                    let _ = self.servo.set_model(ServoModel {
-                        lookahead_s,
-                        gain_per_s2: gain,
-                        ..*self.servo.model()
-                    });
-                    self.last_target = Some(target);
+            } => {
+                // Within servoj's ranges, so that no servo refuses them.
+                let _ = self.servo.set_model(ServoModel {
+                    lookahead_s,
+                    gain_per_s2: gain,
+                    ..*self.servo.model()
+                });
+                let followed = self.following.check(&target, &self.servo);
+                if followed.is_ok() {
                     let slowed = cycle_s * slider.max(LEAST_SLIDER);
                     self.servo.follow(&target.into(), slowed);
-                    return Ok(());
+                    return followed;
                 }
-                jump => jump,
-            },
-            Motion::Brake(deceleration) => {
-                self.servo.brake(deceleration, cycle_s);
-                return Ok(());
+                (self.stop_deceleration, followed)
             }
-            Motion::Rest => None,
+            Motion::Brake(deceleration) => (deceleration, Ok(())),
+            Motion::Rest => (self.stop_deceleration, Ok(())),
         };
-        self.servo.brake(self.stop_deceleration, cycle_s);
-        jump.map_or(Ok(()), Err)
-    }
-
-    /// The first joint for which the step to this target is too large.
-    fn jump(&self, target: &[f64; JOINTS]) -> Option<Jump> {
-        let from = self.last_target.unwrap_or(self.q());
-        (0..JOINTS).find_map(|joint| {
-            let step = (target[joint] - from[joint]).abs();
-            // Written so that no step to a target that is not finite is small.
-            let is_small = step <= self.largest_step;
-            (!is_small).then_some(Jump {
-                joint: joint + 1,
-                step,
-            })
-        })
+        self.servo.brake(deceleration, cycle_s);
+        if self.servo.is_still() {
+            self.following.forget();
+        }
+        followed
     }
 
     /// Forgets the last target: the next one is held against where the arm stands.
     pub(super) fn forget_target(&mut self) {
-        self.last_target = None;
+        self.following.forget();
     }
 
     pub(super) fn is_still(&self) -> bool {
@@ -151,6 +131,6 @@ impl Arm {
     }
 }
 
-fn six(values: &JointVec) -> [f64; JOINTS] {
+pub(super) fn six(values: &JointVec) -> [f64; JOINTS] {
     std::array::from_fn(|joint| values[joint])
 }

@@ -105,6 +105,9 @@ pub struct EmulatorConfig {
     /// A larger step of `servoj`'s target from one call to the next makes a protective stop [rad].
     /// Our choice: the real threshold is not published.
     pub largest_step: f64,
+    /// Following may need more than the speed limit for so long; then a protective stop is made [s].
+    /// Our choice, as is [`Self::largest_step`].
+    pub overspeed_s: f64,
     /// Deceleration of a stop that no program commands [rad/s²]; the real figure is not published.
     pub stop_deceleration: f64,
 }
@@ -133,6 +136,7 @@ impl EmulatorConfig {
             speed_limit: PI,
             acceleration_limit: 40.0,
             largest_step: 0.1,
+            overspeed_s: 0.25,
             stop_deceleration: 10.0,
         }
     }

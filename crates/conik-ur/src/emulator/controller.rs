@@ -89,8 +89,8 @@ impl Controller {
         self.arm.measure(self.slider);
         self.apply_switches();
         let motion = self.run_program();
-        if let Err(jump) = self.arm.follow(motion, 1.0 / self.rate_hz, self.slider) {
-            self.protective_stop(&jump.to_string());
+        if let Err(why) = self.arm.follow(motion, 1.0 / self.rate_hz, self.slider) {
+            self.protective_stop(&why.to_string());
         }
         self.end_finished_program();
         self.watch();
@@ -266,37 +266,6 @@ mod tests {
             controller.cycle();
             assert_eq!(controller.output(OutputField::ActualQ), commanded);
             commanded = controller.output(OutputField::TargetQ);
-        }
-    }
-
-    /// For gains and lookaheads from one end of their ranges to the other, in both series.
-    #[test]
-    fn a_ramp_is_followed_with_the_lookahead_as_its_delay_within_one_cycle() {
-        let speed = 0.5;
-        for (series, cycles) in [(Series::Cb3, 375), (Series::E, 1500)] {
-            for (lookahead_s, gain) in [(0.1, 300.0), (0.03, 2000.0), (0.2, 100.0), (0.2, 2000.0)] {
-                let config = EmulatorConfig::new(series, JointVec::zeros(JOINTS));
-                let mut controller = Controller::new(&config).unwrap();
-                let cycle_s = 1.0 / series.rate_hz();
-                let program = ServoProgram {
-                    cycle_s,
-                    lookahead_s,
-                    gain,
-                    ..PROGRAM
-                };
-                begin(&mut controller, &program);
-                let mut q_ref = 0.0;
-                for counter in 1..=cycles {
-                    q_ref = f64::from(counter) * speed * cycle_s;
-                    give(&mut controller, counter, q_ref);
-                    controller.cycle();
-                }
-                let delay = (q_ref - controller.arm.q()[0]) / speed;
-                assert!(
-                    (delay - lookahead_s).abs() <= cycle_s + 1e-9,
-                    "{series:?}, lookahead {lookahead_s} s, gain {gain}: {delay} s"
-                );
-            }
         }
     }
 }

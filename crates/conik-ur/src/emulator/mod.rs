@@ -13,6 +13,7 @@
 //! | `script_program`, `watchdog` | interpreted programs, control cycle by control cycle |
 //! | `servo_program` | tests of the servo program, run by the interpreter |
 //! | `ur_rtde_program`, `external_control` | programs of other clients that are recognised |
+//! | `arm`, `following` | the joints behind their servo; what they cannot follow |
 //! | `log` | what the controller has to say |
 //! | `power`, `faults` | what the pendant switches; what can be brought about |
 //! | `kinematics`, `not_simulated` | where the tool is; fields that read the same for ever |
@@ -33,6 +34,7 @@ mod dashboard;
 mod external_control;
 pub mod faults;
 mod fields;
+mod following;
 mod inbound;
 mod kinematics;
 mod log;
@@ -230,6 +232,11 @@ impl Emulator {
         }
     }
 
+    /// Control cycles since the start.
+    pub fn cycles(&self) -> u64 {
+        lock(&self.shared.world).controller.cycles()
+    }
+
     /// What has happened, a line each with the controller's time; old lines fall out.
     pub fn log_lines(&self) -> Vec<String> {
         let world = lock(&self.shared.world);
@@ -265,6 +272,12 @@ fn check(config: &EmulatorConfig) -> Result<(), EmulatorError> {
             config.largest_step,
             positive.clone(),
             "above zero",
+        ),
+        (
+            "overspeed time [s]",
+            config.overspeed_s,
+            0.0..=1e6,
+            "0 to a million",
         ),
         (
             "stop deceleration [rad/s²]",
