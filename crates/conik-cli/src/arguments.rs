@@ -141,7 +141,7 @@ const EMULATOR_HELP: &str = "\
 Assumed, not identified on a real arm:
   servoj        acceleration = gain x (q_ref - q - lookahead x speed), then clipped: to a ramp its
                 delay is the lookahead; nobody has published what the gain does
-  limits        3.14 rad/s and 40 rad/s^2 for every joint
+  limits        the arm's published joint speeds; 40 rad/s^2 for every joint
   stops         10 rad/s^2 when nothing commands the arm
   protective    a step of servoj's target above 0.1 rad, or a target that needs more than the
   stop          speed limit, (q_ref - q) / lookahead, for longer than 0.25 s

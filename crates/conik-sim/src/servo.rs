@@ -21,8 +21,6 @@ pub struct ServoModel {
     pub lookahead_s: f64,
     /// K: acceleration per projected error [1/s²].
     pub gain_per_s2: f64,
-    /// Largest speed of every joint [rad/s].
-    pub speed_limit: f64,
     /// Largest acceleration of every joint [rad/s²].
     pub acceleration_limit: f64,
 }
@@ -41,18 +39,27 @@ pub struct BadServoModel {
 #[derive(Clone, Copy, Debug)]
 pub struct Servo {
     model: ServoModel,
+    speed_limits: JointVec,
     q: JointVec,
     qd: JointVec,
     qdd: JointVec,
 }
 
 impl Servo {
-    /// An arm that stands still at `q` [rad].
-    pub fn at_rest(model: ServoModel, q: JointVec) -> Result<Self, BadServoModel> {
+    /// An arm that stands still at `q` [rad], with the largest speed of each of its joints [rad/s].
+    pub fn at_rest(
+        model: ServoModel,
+        speed_limits: JointVec,
+        q: JointVec,
+    ) -> Result<Self, BadServoModel> {
         model.check()?;
+        for limit in speed_limits.iter() {
+            check("speed limit [rad/s]", *limit)?;
+        }
         let zeros = JointVec::zeros(q.len());
         Ok(Self {
             model,
+            speed_limits,
             q,
             qd: zeros,
             qdd: zeros,
@@ -91,13 +98,20 @@ impl Servo {
         Ok(())
     }
 
-    /// The joint (from 0) that needs most speed to follow `q_ref` [rad], and that speed [rad/s]:
-    /// |`q_ref` − q| / L, which to a steady ramp is the ramp's own speed.
+    /// The largest speed of each joint [rad/s].
+    pub fn speed_limits(&self) -> &JointVec {
+        &self.speed_limits
+    }
+
+    /// The joint (from 0) that needs the largest share of its speed limit to follow `q_ref` [rad], and
+    /// the speed that it needs [rad/s]: |`q_ref` − q| / L, which to a steady ramp is the ramp's own
+    /// speed.
     pub fn speed_needed(&self, q_ref: &JointVec) -> Option<(usize, f64)> {
         let joints = q_ref.iter().zip(self.q.iter()).enumerate();
+        let share = |(joint, speed): (usize, f64)| speed / self.speed_limits[joint];
         joints
             .map(|(joint, (to, from))| (joint, (to - from).abs() / self.model.lookahead_s))
-            .max_by(|a, b| a.1.total_cmp(&b.1))
+            .max_by(|a, b| share(*a).total_cmp(&share(*b)))
     }
 
     /// Lets the joints follow `q_ref` [rad], held constant, for `duration` [s].
@@ -109,7 +123,6 @@ impl Servo {
         let ServoModel {
             lookahead_s,
             gain_per_s2,
-            speed_limit,
             acceleration_limit,
         } = self.model;
         for _ in 0..substeps {
@@ -117,7 +130,7 @@ impl Servo {
                 let wanted =
                     gain_per_s2 * (reference - self.q[joint] - lookahead_s * self.qd[joint]);
                 let acceleration = wanted.clamp(-acceleration_limit, acceleration_limit);
-                self.advance(joint, self.qd[joint] + dt * acceleration, speed_limit, dt);
+                self.advance(joint, self.qd[joint] + dt * acceleration, dt);
             }
         }
     }
@@ -127,12 +140,7 @@ impl Servo {
         for joint in 0..self.q.len() {
             let speed = self.qd[joint];
             let slower = (speed.abs() - deceleration * duration).max(0.0);
-            self.advance(
-                joint,
-                slower.copysign(speed),
-                self.model.speed_limit,
-                duration,
-            );
+            self.advance(joint, slower.copysign(speed), duration);
             if slower == 0.0 {
                 self.qd[joint] = 0.0;
             }
@@ -140,8 +148,9 @@ impl Servo {
     }
 
     /// Velocity first, then position with the new velocity: the order that keeps an oscillator stable.
-    fn advance(&mut self, joint: usize, speed: f64, speed_limit: f64, dt: f64) {
-        let speed = speed.clamp(-speed_limit, speed_limit);
+    fn advance(&mut self, joint: usize, speed: f64, dt: f64) {
+        let limit = self.speed_limits[joint];
+        let speed = speed.clamp(-limit, limit);
         self.qdd[joint] = (speed - self.qd[joint]) / dt;
         self.qd[joint] = speed;
         self.q[joint] += dt * speed;
@@ -153,12 +162,9 @@ impl ServoModel {
         for (name, value) in [
             ("lookahead [s]", self.lookahead_s),
             ("gain [1/s²]", self.gain_per_s2),
-            ("speed limit [rad/s]", self.speed_limit),
             ("acceleration limit [rad/s²]", self.acceleration_limit),
         ] {
-            if !(value.is_finite() && value > 0.0) {
-                return Err(BadServoModel { name, value });
-            }
+            check(name, value)?;
         }
         Ok(())
     }
@@ -172,6 +178,14 @@ impl ServoModel {
     }
 }
 
+fn check(name: &'static str, value: f64) -> Result<(), BadServoModel> {
+    if value.is_finite() && value > 0.0 {
+        Ok(())
+    } else {
+        Err(BadServoModel { name, value })
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -179,10 +193,16 @@ mod tests {
     const UR5: ServoModel = ServoModel {
         lookahead_s: 0.1,
         gain_per_s2: 300.0,
-        speed_limit: std::f64::consts::PI,
         acceleration_limit: 40.0,
     };
+    const SPEED_LIMIT: f64 = std::f64::consts::PI;
     const CYCLE: f64 = 0.008;
+
+    fn standing(model: ServoModel, joints: usize) -> Servo {
+        let mut limits = JointVec::zeros(joints);
+        limits.fill(SPEED_LIMIT);
+        Servo::at_rest(model, limits, JointVec::zeros(joints)).unwrap()
+    }
 
     /// The pairs that users set: soft, the maker's driver, the corners of the allowed range.
     const TUNINGS: [(f64, f64); 6] = [
@@ -206,7 +226,7 @@ mod tests {
     fn delay_to_a_ramp_is_the_lookahead() {
         let speed = 0.5;
         for tuning in TUNINGS {
-            let mut servo = Servo::at_rest(tuned(tuning), JointVec::zeros(6)).unwrap();
+            let mut servo = standing(tuned(tuning), 6);
             let mut reference = JointVec::zeros(6);
             for tick in 0..1000 {
                 reference.fill(speed * CYCLE * f64::from(tick));
@@ -224,13 +244,13 @@ mod tests {
     #[test]
     fn limits_hold_whatever_the_reference_does() {
         for tuning in TUNINGS {
-            let mut servo = Servo::at_rest(tuned(tuning), JointVec::zeros(2)).unwrap();
+            let mut servo = standing(tuned(tuning), 2);
             for tick in 0..500 {
                 let side = if tick / 40 % 2 == 0 { 3.0 } else { -3.0 };
                 servo.follow(&JointVec::from([side, -side]), CYCLE);
                 let (_, speed) = servo.qd().largest().unwrap();
                 let (_, acceleration) = servo.qdd().largest().unwrap();
-                assert!(speed <= UR5.speed_limit, "{tuning:?}: {speed} rad/s");
+                assert!(speed <= SPEED_LIMIT, "{tuning:?}: {speed} rad/s");
                 assert!(
                     acceleration <= UR5.acceleration_limit * (1.0 + 1e-9),
                     "{tuning:?}: {acceleration} rad/s²"
@@ -243,7 +263,7 @@ mod tests {
     fn the_speed_needed_for_a_steady_ramp_is_the_ramps_own() {
         let (speed, cycle) = (0.5, 0.002);
         for tuning in TUNINGS {
-            let mut servo = Servo::at_rest(tuned(tuning), JointVec::zeros(6)).unwrap();
+            let mut servo = standing(tuned(tuning), 6);
             let mut reference = JointVec::zeros(6);
             for tick in 0..4000 {
                 reference[4] = speed * cycle * f64::from(tick);
@@ -259,9 +279,22 @@ mod tests {
     }
 
     #[test]
+    fn each_joint_has_a_limit_of_its_own() {
+        let limits = JointVec::from([0.5, 2.0]);
+        let mut servo = Servo::at_rest(UR5, limits, JointVec::zeros(2)).unwrap();
+        for _ in 0..50 {
+            servo.follow(&JointVec::from([5.0, 5.0]), CYCLE);
+        }
+        assert_eq!(**servo.qd(), [0.5, 2.0]);
+        let far = JointVec::from([5.0, 5.0]);
+        let (joint, _) = servo.speed_needed(&far).unwrap();
+        assert_eq!(joint, 0, "the slower joint is the one that cannot");
+    }
+
+    #[test]
     fn settles_on_a_constant_reference_without_blowing_up() {
         for tuning in TUNINGS {
-            let mut servo = Servo::at_rest(tuned(tuning), JointVec::zeros(1)).unwrap();
+            let mut servo = standing(tuned(tuning), 1);
             for _ in 0..2500 {
                 servo.follow(&JointVec::from([0.3]), CYCLE);
             }
@@ -271,7 +304,7 @@ mod tests {
 
     #[test]
     fn substeps_leave_the_motion_independent_of_the_cycle() {
-        let mut coarse = Servo::at_rest(tuned((0.03, 2000.0)), JointVec::zeros(1)).unwrap();
+        let mut coarse = standing(tuned((0.03, 2000.0)), 1);
         let mut fine = coarse;
         for _ in 0..25 {
             coarse.follow(&JointVec::from([0.01]), 0.008);
@@ -284,7 +317,7 @@ mod tests {
 
     #[test]
     fn braking_ends_at_rest_and_never_reverses() {
-        let mut servo = Servo::at_rest(UR5, JointVec::zeros(1)).unwrap();
+        let mut servo = standing(UR5, 1);
         for _ in 0..50 {
             servo.follow(&JointVec::from([1.0]), CYCLE);
         }
@@ -303,7 +336,10 @@ mod tests {
             gain_per_s2: f64::NAN,
             ..UR5
         };
-        let error = Servo::at_rest(model, JointVec::zeros(6)).unwrap_err();
+        let (zeros, ones) = (JointVec::zeros(1), JointVec::from([1.0]));
+        let error = Servo::at_rest(model, ones, zeros).unwrap_err();
         assert_eq!(error.name, "gain [1/s²]");
+        let error = Servo::at_rest(UR5, zeros, zeros).unwrap_err();
+        assert_eq!(error.name, "speed limit [rad/s]");
     }
 }

@@ -384,7 +384,7 @@ fn settings_that_no_controller_has_are_refused() {
             ..config.clone()
         },
         EmulatorConfig {
-            speed_limit: 0.0,
+            acceleration_limit: 0.0,
             ..config.clone()
         },
         EmulatorConfig {

@@ -39,11 +39,10 @@ impl Arm {
             // Each `servoj` brings its own; these two count for nothing before.
             lookahead_s: 0.1,
             gain_per_s2: 300.0,
-            speed_limit: config.speed_limit,
             acceleration_limit: config.acceleration_limit,
         };
         Ok(Self {
-            servo: Servo::at_rest(model, config.q0)?,
+            servo: Servo::at_rest(model, config.arm.most_speed().into(), config.q0)?,
             actual: (six(&config.q0), [0.0; JOINTS]),
             following: Following::new(config.largest_step, config.overspeed_s, config.rate_hz),
             stop_deceleration: config.stop_deceleration,

@@ -2,7 +2,6 @@
 
 use conik::JointVec;
 use conik_sim::servo::BadServoModel;
-use std::f64::consts::PI;
 use std::io::{self, ErrorKind};
 use std::net::{IpAddr, Ipv4Addr};
 
@@ -98,8 +97,6 @@ pub struct EmulatorConfig {
     pub ports: Ports,
     /// How its clock goes.
     pub pace: Pace,
-    /// Largest speed of every joint [rad/s].
-    pub speed_limit: f64,
     /// Largest acceleration of every joint [rad/s²]; the real figure is not published.
     pub acceleration_limit: f64,
     /// A larger step of `servoj`'s target from one call to the next makes a protective stop [rad].
@@ -133,7 +130,6 @@ impl EmulatorConfig {
             remote_control: true,
             ports: Ports::Free,
             pace: Pace::WallTime,
-            speed_limit: PI,
             acceleration_limit: 40.0,
             largest_step: 0.1,
             overspeed_s: 0.25,

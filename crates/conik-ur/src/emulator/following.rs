@@ -69,10 +69,10 @@ impl Following {
             }
         }
         self.target = Some(*target);
-        let limit = servo.model().speed_limit;
+        let limits = servo.speed_limits();
         let needed = servo.speed_needed(&(*target).into());
-        let Some((joint, speed)) = needed.filter(|(_, speed)| *speed > limit * SPEED_ALLOWANCE)
-        else {
+        let too_fast = |(joint, speed): &(usize, f64)| *speed > limits[*joint] * SPEED_ALLOWANCE;
+        let Some((joint, speed)) = needed.filter(too_fast) else {
             self.too_fast = 0;
             return Ok(());
         };
@@ -82,7 +82,7 @@ impl Following {
         }
         Err(NotFollowed::TooFast {
             joint: joint + 1,
-            limit,
+            limit: limits[joint],
             speed,
             cycles: self.too_fast,
         })

@@ -178,8 +178,8 @@ impl Controller {
         for _ in 0..JOINTS {
             bytes.doubles(&[-full_turn, full_turn]);
         }
-        for _ in 0..JOINTS {
-            bytes.doubles(&[model.speed_limit, model.acceleration_limit]);
+        for speed in self.facts.most_speed() {
+            bytes.doubles(&[speed, model.acceleration_limit]);
         }
         bytes.doubles(&[1.05, 1.4, 0.25, 1.2, 0.25]);
         parameters(&mut bytes, self.facts);
