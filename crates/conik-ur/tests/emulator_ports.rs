@@ -4,14 +4,9 @@ use conik::JointVec;
 use conik_ur::emulator::{Emulator, EmulatorConfig, Fault, Pace, Series, faults};
 use std::io::{BufRead, BufReader, Read, Write};
 use std::net::TcpStream;
-use std::sync::Arc;
-use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Duration;
 
 const Q0: [f64; 6] = [0.1, -1.5, 1.2, -0.4, 0.7, 0.0];
-
-/// Bytes of random and mutated packages sent to each port; more by `CONIK_NOISE_PACKAGES`.
-const NOISE_PACKAGES: u32 = 300;
 
 /// The least that is taken for the program of the maker's C++ client library; nobody listens there.
 const EXTERNAL_CONTROL: &str = "def any():\n MULT_jointstate = 1000000\n MODE_STOPPED = -2\n \
@@ -246,143 +241,6 @@ fn chance_drops_packages_and_jitter_never_turns_them_round() {
     emulator.strike(Fault::Jitter(0.02));
     let cycles: Vec<i64> = (0..200).map(|_| rtde.cycle()).collect();
     assert!(cycles.is_sorted(), "{cycles:?}");
-}
-
-#[test]
-fn two_hundred_connections_are_served_and_deaf_ones_hold_nobody_up() {
-    let emulator = emulator();
-    let ports = [
-        emulator.rtde_port(),
-        emulator.script_port(),
-        emulator.real_time_port(),
-        emulator.dashboard_port(),
-    ];
-    // They read nothing.
-    let deaf: Vec<TcpStream> = (0..200).map(|k| connect(ports[k % ports.len()])).collect();
-    let mut dashboard = Dashboard::of(&emulator);
-    assert_eq!(dashboard.ask("robotmode"), "Robotmode: RUNNING");
-    let mut rtde = Rtde::started(&emulator);
-    let first = rtde.cycle();
-    while rtde.cycle() < first + 500 {}
-    drop(deaf);
-}
-
-/// Marsaglia's xorshift: the same noise in every run.
-struct Noise(u64);
-
-impl Noise {
-    fn next(&mut self) -> u64 {
-        self.0 ^= self.0 << 13;
-        self.0 ^= self.0 >> 7;
-        self.0 ^= self.0 << 17;
-        self.0
-    }
-
-    #[allow(clippy::cast_possible_truncation)] // Below the limit.
-    fn below(&mut self, limit: usize) -> usize {
-        (self.next() % limit as u64) as usize
-    }
-
-    fn byte(&mut self) -> u8 {
-        self.next().to_be_bytes()[0]
-    }
-
-    /// One of the good messages with some bytes changed, cut or doubled; now and then only noise.
-    fn mutated(&mut self, good: &[Vec<u8>]) -> Vec<u8> {
-        let mut bytes = good[self.below(good.len())].clone();
-        for _ in 0..self.below(5) {
-            let at = self.below(bytes.len().max(1));
-            match self.below(4) {
-                0 => bytes.truncate(at),
-                1 => bytes.insert(at.min(bytes.len()), self.byte()),
-                2 => bytes.extend_from_within(..at.min(bytes.len())),
-                _ => {
-                    if let Some(byte) = bytes.get_mut(at) {
-                        *byte = self.byte();
-                    }
-                }
-            }
-        }
-        bytes
-    }
-}
-
-fn framed(kind: u8, payload: &[u8]) -> Vec<u8> {
-    let size = u16::try_from(payload.len() + 3).unwrap().to_be_bytes();
-    [&size, &[kind][..], payload].concat()
-}
-
-/// A long run: `CONIK_NOISE_PACKAGES=10000000 cargo test -p conik-ur --release --test
-/// emulator_ports noise`.
-#[test]
-fn no_noise_on_any_port_brings_the_emulator_down() {
-    // The emulator goes on if one of its threads panics, so look for it.
-    let panics = Arc::new(AtomicUsize::new(0));
-    let seen = Arc::clone(&panics);
-    let print = std::panic::take_hook();
-    std::panic::set_hook(Box::new(move |panic| {
-        seen.fetch_add(1, Ordering::Relaxed);
-        print(panic);
-    }));
-    let packages = std::env::var("CONIK_NOISE_PACKAGES")
-        .ok()
-        .and_then(|count| count.parse().ok())
-        .unwrap_or(NOISE_PACKAGES);
-    let emulator = emulator();
-    let outputs = [&500.0_f64.to_be_bytes()[..], b"timestamp,actual_q"].concat();
-    let rtde = [
-        framed(b'V', &[0, 2]),
-        framed(b'V', &[0, 1]),
-        framed(b'v', &[]),
-        framed(b'O', &outputs),
-        framed(b'I', b"input_double_register_24,input_int_register_24,"),
-        framed(b'U', &[&[1][..], &[0; 12]].concat()),
-        framed(b'S', &[]),
-        framed(b'P', &[]),
-        framed(b'M', b"\x02hi\x02me\x01"),
-    ];
-    let lines = |lines: &[&str]| -> Vec<Vec<u8>> {
-        lines
-            .iter()
-            .map(|line| format!("{line}\n").into_bytes())
-            .collect()
-    };
-    let scripts = lines(&[
-        "def rtde_control():\n reg_offset_int = 24\nend",
-        EXTERNAL_CONTROL,
-        "power on",
-        "stopj(2)",
-    ]);
-    let dashboard = lines(&[
-        "power on",
-        "load a",
-        "emulator release",
-        "unlock protective stop",
-    ]);
-    let ports = [
-        (emulator.rtde_port(), &rtde[..]),
-        (emulator.script_port(), &scripts),
-        (emulator.real_time_port(), &scripts),
-        (emulator.dashboard_port(), &dashboard),
-    ];
-    let mut noise = Noise(0x1234_5678_9ABC_DEF1);
-    for (port, good) in ports {
-        let mut stream = connect(port);
-        for _ in 0..packages {
-            // The port may have cut us off for what came before; a fresh connection then goes on.
-            if stream.write_all(&noise.mutated(good)).is_err() || noise.below(20) == 0 {
-                stream = connect(port);
-            }
-        }
-    }
-    let mut dashboard = Dashboard::of(&emulator);
-    dashboard.ask("brake release");
-    assert_eq!(dashboard.ask("robotmode"), "Robotmode: RUNNING");
-    let mut rtde = Rtde::started(&emulator);
-    let first = rtde.cycle();
-    while rtde.cycle() < first + 10 {}
-    drop(emulator);
-    assert_eq!(panics.load(Ordering::Relaxed), 0, "a thread panicked");
 }
 
 #[test]

@@ -38,6 +38,8 @@ mod following;
 mod inbound;
 mod kinematics;
 mod log;
+#[cfg(test)]
+mod noise;
 mod not_simulated;
 mod outbox;
 mod outputs;
@@ -237,6 +239,11 @@ impl Emulator {
         lock(&self.shared.world).controller.cycles()
     }
 
+    /// Connections that are open at present, on all ports.
+    pub fn connection_count(&self) -> usize {
+        lock(&self.shared.world).connection_count()
+    }
+
     /// What has happened, a line each with the controller's time; old lines fall out.
     pub fn log_lines(&self) -> Vec<String> {
         let world = lock(&self.shared.world);
@@ -323,7 +330,7 @@ mod tests {
             let world = Arc::downgrade(&emulator.shared);
             let clients = [emulator.rtde_port(), emulator.script_port()]
                 .map(|port| TcpStream::connect(("127.0.0.1", port)).unwrap());
-            while lock(&emulator.shared.world).connection_count() < clients.len() {
+            while emulator.connection_count() < clients.len() {
                 thread::yield_now();
             }
             drop(emulator);

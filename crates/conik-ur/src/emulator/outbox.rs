@@ -74,6 +74,14 @@ impl Outbox {
         self.changed.notify_all();
     }
 
+    /// What waits, without waiting for more.
+    #[cfg(test)]
+    pub(super) fn take_all(&self) -> Vec<Vec<u8>> {
+        let mut waiting = lock(&self.waiting);
+        let newest = waiting.newest.take();
+        waiting.answers.drain(..).chain(newest).collect()
+    }
+
     /// Waits for something to write; `None` once it is closed.
     pub(super) fn take(&self) -> Option<Vec<u8>> {
         let mut waiting = lock(&self.waiting);

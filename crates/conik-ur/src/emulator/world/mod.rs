@@ -178,7 +178,6 @@ impl World {
         }
     }
 
-    #[cfg(test)]
     pub(super) fn connection_count(&self) -> usize {
         self.connections.len()
     }
