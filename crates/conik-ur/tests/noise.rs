@@ -61,7 +61,7 @@ impl Client {
             return false;
         }
         if self.manners.reads {
-            let mut buffer = [0; 1 << 16];
+            let mut buffer = [0; 8192];
             self.stream.set_nonblocking(true).unwrap();
             while matches!(self.stream.read(&mut buffer), Ok(1..)) {}
             self.stream.set_nonblocking(false).unwrap();
@@ -72,7 +72,7 @@ impl Client {
     fn leave(mut self) {
         if self.manners.waits_for_the_end && self.stream.shutdown(Shutdown::Write).is_ok() {
             // Cut off for what came before, or served to the end: it is over either way.
-            let mut buffer = [0; 1 << 16];
+            let mut buffer = [0; 8192];
             let end = loop {
                 match self.stream.read(&mut buffer) {
                     Ok(1..) => {}

@@ -11,9 +11,11 @@ const LOCKSTEP_PATIENCE: Duration = Duration::from_secs(5);
 /// A cycle in lockstep while there is nobody to wait for.
 const LOCKSTEP_IDLE_CYCLE: Duration = Duration::from_millis(1);
 
-/// A clock that is further behind than this was put to sleep with the computer: it goes on from
-/// the present instead of rushing through the cycles that it missed.
-const MOST_BEHIND: Duration = Duration::from_millis(200);
+/// A clock that is further behind than this was held up by the computer, as no controller's ever
+/// is: it goes on from the present. If it rushed through the cycles that it missed, its clients,
+/// which were held up as well, could answer none of them, and the arm would stop for want of
+/// references.
+const MOST_BEHIND: Duration = Duration::from_millis(10);
 
 /// Runs until the emulator ends.
 pub(super) fn run(shared: &Shared) {
@@ -31,11 +33,19 @@ fn run_in_wall_time(shared: &Shared) {
         cycles += 1;
         let mut deadline = beginning + Duration::from_secs_f64(f64::from(cycles) / shared.rate_hz);
         let now = Instant::now();
+        let behind = now.saturating_duration_since(deadline);
         // The count is kept small too, long before it could overflow.
-        if now > deadline + MOST_BEHIND || cycles == u32::MAX {
+        if behind > MOST_BEHIND || cycles == u32::MAX {
             (beginning, cycles, deadline) = (now, 0, now);
         }
         let mut world = lock(&shared.world);
+        if behind > MOST_BEHIND {
+            let line = format!(
+                "this computer held the clock up for {} ms",
+                behind.as_millis()
+            );
+            world.controller.note(&line);
+        }
         loop {
             if world.is_closing {
                 return;

@@ -112,9 +112,8 @@ fn spawn_connection(
     let thread = thread::Builder::new()
         .name(format!("emulator connection {id}"))
         .spawn(move || {
+            let _leaves = Leaves(&for_thread, id);
             serve_connection(&for_thread, id, &stream, service);
-            lock(&for_thread.world).remove(id);
-            for_thread.changed.notify_all();
         });
     if let Err(error) = &thread {
         lock(&shared.world).remove(id);
@@ -123,18 +122,37 @@ fn spawn_connection(
     thread.ok()
 }
 
+/// Forgets a connection at the end of its thread, however that ends.
+struct Leaves<'a>(&'a Shared, u64);
+
+impl Drop for Leaves<'_> {
+    fn drop(&mut self) {
+        lock(&self.0.world).remove(self.1);
+        self.0.changed.notify_all();
+    }
+}
+
+/// Lets the thread that writes end, however the one that reads ends. Whoever has said all that they
+/// had to say may still want the answers.
+struct Finishes<'a>(&'a Outbox);
+
+impl Drop for Finishes<'_> {
+    fn drop(&mut self) {
+        self.0.finish();
+    }
+}
+
 fn serve_connection(shared: &Shared, id: u64, stream: &TcpStream, service: Service) {
     let mut inbound = Inbound::join(shared, id, service);
     let outbox = Arc::clone(inbound.outbox());
     thread::scope(|scope| {
+        let _finishes = Finishes(&outbox);
         let writer = thread::Builder::new()
             .name(format!("emulator writer {id}"))
             .spawn_scoped(scope, || write_all_of(&outbox, stream, service));
         if writer.is_ok() {
             read_all(stream, |bytes| inbound.take(shared, bytes));
         }
-        // Whoever has said all that they had to say may still want the answers.
-        outbox.finish();
     });
 }
 
