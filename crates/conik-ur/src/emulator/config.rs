@@ -180,6 +180,8 @@ pub enum Fault {
     BadPackages(u32),
     /// Whether everything is written one byte at a time.
     OneByte(bool),
+    /// Another one, so much later by the controller's cycles [s].
+    After(f64, Box<Fault>),
 }
 
 /// Why an emulator cannot start.

@@ -7,27 +7,43 @@ use super::fields::InputField;
 pub const GRAMMAR: &str = "protective stop | emergency stop | program stop | pause | release | \
     restart clock | clock jump SECONDS | drop PROBABILITY | delay SECONDS | jitter SECONDS | \
     freeze SECONDS | reset | half-open | register in use NAME | bad packages COUNT | \
-    one-byte on | one-byte off";
+    one-byte on | one-byte off | after SECONDS FAULT";
+
+/// The longest that a fault may be put off [s].
+const LATEST_S: f64 = 86_400.0;
 
 /// The fault that a line asks for.
 pub fn parse(line: &str) -> Result<Fault, String> {
     let words: Vec<&str> = line.split_whitespace().collect();
-    let seconds = |word: &str, most: f64| match word.parse::<f64>() {
+    match words.as_slice() {
+        ["after", time, fault @ ..] => {
+            let fault = Box::new(of_words(fault)?);
+            Ok(Fault::After(number(time, LATEST_S)?, fault))
+        }
+        words => of_words(words),
+    }
+}
+
+fn number(word: &str, most: f64) -> Result<f64, String> {
+    match word.parse::<f64>() {
         Ok(value) if (0.0..=most).contains(&value) => Ok(value),
         _ => Err(format!("'{word}' is not a number from 0 to {most}")),
-    };
-    Ok(match words.as_slice() {
+    }
+}
+
+fn of_words(words: &[&str]) -> Result<Fault, String> {
+    Ok(match words {
         ["protective", "stop"] => Fault::Event(Injection::ProtectiveStop),
         ["emergency", "stop"] => Fault::Event(Injection::EmergencyStop),
         ["program", "stop"] => Fault::Event(Injection::StopProgram),
         ["pause"] => Fault::Event(Injection::PauseProgram),
         ["release"] => Fault::Event(Injection::Release),
         ["restart", "clock"] => Fault::Event(Injection::RestartClock),
-        ["clock", "jump", time] => Fault::ClockJump(seconds(time, 1e6)?),
-        ["drop", probability] => Fault::Drop(seconds(probability, 1.0)?),
-        ["delay", time] => Fault::Delay(seconds(time, 10.0)?),
-        ["jitter", time] => Fault::Jitter(seconds(time, 10.0)?),
-        ["freeze", time] => Fault::Freeze(seconds(time, 1e6)?),
+        ["clock", "jump", time] => Fault::ClockJump(number(time, 1e6)?),
+        ["drop", probability] => Fault::Drop(number(probability, 1.0)?),
+        ["delay", time] => Fault::Delay(number(time, 10.0)?),
+        ["jitter", time] => Fault::Jitter(number(time, 10.0)?),
+        ["freeze", time] => Fault::Freeze(number(time, 1e6)?),
         ["reset"] => Fault::Reset,
         ["half-open"] => Fault::HalfOpen,
         ["register", "in", "use", name] if InputField::from_name(name).is_none() => {
@@ -43,7 +59,10 @@ pub fn parse(line: &str) -> Result<Fault, String> {
         ),
         ["one-byte", "on"] => Fault::OneByte(true),
         ["one-byte", "off"] => Fault::OneByte(false),
-        _ => return Err(format!("unknown fault '{line}'; there are: {GRAMMAR}")),
+        _ => {
+            let line = words.join(" ");
+            return Err(format!("unknown fault '{line}'; there are: {GRAMMAR}"));
+        }
     })
 }
 
@@ -115,7 +134,8 @@ mod tests {
                 .replace("SECONDS", "0.5")
                 .replace("PROBABILITY", "0.5")
                 .replace("NAME", "input_int_register_0")
-                .replace("COUNT", "3");
+                .replace("COUNT", "3")
+                .replace("FAULT", "emergency stop");
             assert!(parse(&line).is_ok(), "{line}");
         }
         for line in [
@@ -123,6 +143,9 @@ mod tests {
             "drop",
             "drop 2",
             "drop nan",
+            "after 1",
+            "after -1 reset",
+            "after 1 after 1 reset",
             "delay -1",
             "bad packages x",
             "register in use output_int_register_0",

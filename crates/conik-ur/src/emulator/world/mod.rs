@@ -4,7 +4,7 @@ mod client;
 mod scripts;
 mod strike;
 
-use super::config::Pace;
+use super::config::{Fault, Pace};
 use super::controller::Controller;
 use super::faults::Network;
 use super::lock;
@@ -40,6 +40,8 @@ pub(super) struct World {
     claims: Claims,
     listeners: BTreeMap<u64, Listener>,
     network: Network,
+    /// Faults to come, each with its cycle.
+    to_come: Vec<(u64, Fault)>,
     one_byte: bool,
     /// Every open connection, so that all can be woken at the end.
     connections: BTreeMap<u64, Arc<TcpStream>>,
@@ -74,6 +76,7 @@ impl World {
             claims: Claims::new(),
             listeners: BTreeMap::new(),
             network: Network::good(),
+            to_come: Vec::new(),
             one_byte: false,
             connections: BTreeMap::new(),
             next_id: 1,
@@ -206,6 +209,7 @@ impl World {
 
     /// One control cycle, and the packages that are due after it.
     pub(super) fn cycle(&mut self, pace: Pace) {
+        self.strike_what_is_due();
         self.controller.cycle();
         self.tell_clients();
         let runs = self.controller.program_runs();

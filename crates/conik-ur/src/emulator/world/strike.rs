@@ -8,6 +8,9 @@ use std::net::Shutdown;
 /// Who writes an input that a fieldbus has claimed; clients are numbered from 1.
 const FIELDBUS: u64 = 0;
 
+/// Faults that may be put off at a time.
+const MOST_TO_COME: usize = 1000;
+
 impl World {
     /// Brings a fault about.
     pub(in crate::emulator) fn strike(&mut self, fault: Fault) {
@@ -47,6 +50,13 @@ impl World {
                 }
                 None => self.controller.note(&format!("there is no input '{name}'")),
             },
+            Fault::After(_, _) if self.to_come.len() >= MOST_TO_COME => {
+                self.controller.note("too many faults are to come");
+            }
+            Fault::After(seconds, fault) => {
+                let cycle = self.controller.cycles().saturating_add(cycles(seconds));
+                self.to_come.push((cycle, *fault));
+            }
             Fault::BadPackages(count) => self.network.bad_packages = count,
             Fault::OneByte(on) => {
                 self.one_byte = on;
@@ -58,5 +68,15 @@ impl World {
             }
         }
         self.controller.note(&line);
+    }
+
+    /// Brings about the faults that were put off to this cycle, in the order in which they were
+    /// asked for.
+    pub(super) fn strike_what_is_due(&mut self) {
+        let now = self.controller.cycles();
+        let due = self.to_come.extract_if(.., |(cycle, _)| *cycle <= now);
+        for (_, fault) in due.collect::<Vec<_>>() {
+            self.strike(fault);
+        }
     }
 }
