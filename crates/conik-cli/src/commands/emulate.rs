@@ -37,9 +37,11 @@ pub fn emulate(arguments: &EmulateArguments) -> Result<ExitCode, Failure> {
     let faults: Vec<_> = arguments
         .fault
         .iter()
-        .map(|line| faults::parse(line))
-        .collect::<Result<_, _>>()
-        .map_err(Failure::input)?;
+        .map(|line| {
+            faults::parse(line)
+                .map_err(|error| Failure::input(format!("--fault '{line}': {error}")))
+        })
+        .collect::<Result<_, _>>()?;
     let stop = super::run::stop_on_ctrl_c()?;
     let emulator = Emulator::start(config).map_err(Failure::input)?;
     for fault in faults {

@@ -1,5 +1,6 @@
 //! `conik preflight`: measures this computer and the link to a controller before anything moves.
 
+use std::ops::RangeInclusive;
 use std::process::ExitCode;
 use std::thread;
 
@@ -12,6 +13,9 @@ use conik_ur::timing::{Spread, Timing};
 use crate::arguments::PreflightArguments;
 use crate::failure::Failure;
 use crate::layout::{table, wrapped};
+
+/// Rates that some controller might run at [Hz].
+const RATES_HZ: RangeInclusive<f64> = 1.0..=1000.0;
 
 /// Looks at the controller for a while and says what it saw.
 pub fn preflight(arguments: &PreflightArguments) -> Result<ExitCode, Failure> {
@@ -26,7 +30,17 @@ pub fn preflight(arguments: &PreflightArguments) -> Result<ExitCode, Failure> {
             "--seconds {seconds}: from 0.1 to 86400"
         )));
     }
+    if let Some(rate_hz) = rate_hz
+        && !RATES_HZ.contains(rate_hz)
+    {
+        return Err(Failure::input(format!(
+            "--rate-hz {rate_hz}: from {} to {} Hz",
+            RATES_HZ.start(),
+            RATES_HZ.end()
+        )));
+    }
     let mut config = UrConfig::new(host);
+    config.check_host().map_err(Failure::input)?;
     config.offset_ports(*port_offset).map_err(Failure::input)?;
     let stop = super::run::stop_on_ctrl_c()?;
     // As the thread that drives an arm.

@@ -11,6 +11,7 @@ use crate::failure::Failure;
 /// Recovers the arm and says so.
 pub fn recover(arguments: &RecoverArguments) -> Result<ExitCode, Failure> {
     let mut config = UrConfig::new(&arguments.host);
+    config.check_host().map_err(Failure::input)?;
     config
         .offset_ports(arguments.port_offset)
         .map_err(Failure::input)?;

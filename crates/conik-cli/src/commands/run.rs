@@ -222,6 +222,7 @@ fn arm(
             }
             config.robot = UrModel::in_name(&scenario.robot.model);
             config.dry_run = arguments.dry_run;
+            config.check_host().map_err(Failure::input)?;
             config
                 .offset_ports(arguments.port_offset)
                 .map_err(Failure::input)?;

@@ -5,6 +5,7 @@ use crate::program::Pose;
 use crate::registers::{JOINTS, RegisterBase};
 use conik_sim::scenario::{UrModel, UrSeries, UrSettings};
 use std::f64::consts::{PI, TAU};
+use std::net::IpAddr;
 use std::time::Duration;
 
 /// The controller's port for RTDE.
@@ -21,6 +22,14 @@ pub const SPEED_CHANGE_ALLOWED: f64 = 0.75;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("--port-offset: no port may exceed 65535")]
 pub struct BadPortOffset;
+
+/// A host that cannot be one.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error(
+    "'{0}' is no host: give the controller's name or address alone, such as 192.168.0.10, without \
+     a port and without `http://`"
+)]
+pub struct BadHost(String);
 
 /// The controller's port for the dashboard.
 pub const DASHBOARD_PORT: u16 = 29999;
@@ -153,6 +162,20 @@ impl UrConfig {
             six(&settings.most_acceleration_rad_per_s2).or(self.acceleration_limit);
     }
 
+    /// Whether the host can be one at all, before anybody looks for it.
+    pub fn check_host(&self) -> Result<(), BadHost> {
+        // An address of IPv6 may name the network card behind it.
+        let address = self.host.split('%').next().unwrap_or_default();
+        let is_name = |host: &str| {
+            let known = |letter: char| letter.is_alphanumeric() || "-._".contains(letter);
+            !host.is_empty() && host.chars().all(known)
+        };
+        if address.parse::<IpAddr>().is_ok() || is_name(&self.host) {
+            return Ok(());
+        }
+        Err(BadHost(self.host.clone()))
+    }
+
     /// Adds `offset` to every port, as an emulator beside others has it.
     pub fn offset_ports(&mut self, offset: u16) -> Result<(), BadPortOffset> {
         for port in [
@@ -163,5 +186,27 @@ impl UrConfig {
             *port = port.checked_add(offset).ok_or(BadPortOffset)?;
         }
         Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_host_is_a_name_or_an_address_and_nothing_more() {
+        for (host, is_one) in [
+            ("192.168.0.10", true),
+            ("ur5e-left.cell_3.local", true),
+            ("::1", true),
+            ("fe80::1%eth0", true),
+            ("", false),
+            ("a b", false),
+            ("192.168.0.10:30004", false),
+            ("http://192.168.0.10", false),
+            ("[::1]", false),
+        ] {
+            assert_eq!(UrConfig::new(host).check_host().is_ok(), is_one, "{host}");
+        }
     }
 }

@@ -4,16 +4,27 @@ use super::config::UrConfig;
 use super::connect::connect;
 use super::fault;
 use conik_sim::arm::ArmError;
-use std::io::{BufRead, BufReader, Read, Write};
+use std::io::{Error, ErrorKind, Read, Write};
 use std::net::TcpStream;
+use std::time::{Duration, Instant};
 
 /// A longer line is not the dashboard's.
-const LONGEST_LINE: u64 = 4096;
+const LONGEST_LINE: usize = 4096;
+
+/// Characters of a wrong greeting that are shown.
+const SHOWN: usize = 60;
+
+/// What to look at where no dashboard answers as one.
+const HINT: &str = "; is it a UR controller, and this its dashboard port?";
 
 /// A connection to the dashboard.
 #[derive(Debug)]
 pub(super) struct Dashboard {
-    lines: BufReader<TcpStream>,
+    stream: TcpStream,
+    /// What has come in and was not used yet.
+    waiting: Vec<u8>,
+    /// How long an answer may take.
+    patience: Duration,
 }
 
 impl Dashboard {
@@ -21,23 +32,25 @@ impl Dashboard {
     pub(super) fn connect(config: &UrConfig) -> Result<Self, ArmError> {
         let stream = connect(config, config.dashboard_port)?;
         let mut dashboard = Self {
-            lines: BufReader::new(stream),
+            stream,
+            waiting: Vec::new(),
+            patience: config.link_timeout,
         };
         let greeting = dashboard.line("its greeting")?;
         if greeting.contains("Dashboard") {
             return Ok(dashboard);
         }
+        let shown: String = greeting.chars().take(SHOWN).collect();
         let detail = format!(
-            "port {} does not greet as a dashboard does: {greeting:?}",
+            "port {} does not greet as a dashboard does: {shown:?}",
             config.dashboard_port
         );
-        Err(ArmError::new(fault::PROTOCOL, detail))
+        Err(ArmError::new(fault::PROTOCOL, detail + HINT))
     }
 
     /// Says one line and returns what is answered.
     pub(super) fn ask(&mut self, question: &str) -> Result<String, ArmError> {
-        self.lines
-            .get_mut()
+        self.stream
             .write_all(format!("{question}\n").as_bytes())
             .map_err(|error| lost(question, &error))?;
         self.line(question)
@@ -53,21 +66,43 @@ impl Dashboard {
         Err(ArmError::new(fault::DASHBOARD_REFUSED, detail))
     }
 
+    /// The next line, which must come within the patience however its bytes do.
     fn line(&mut self, awaited: &str) -> Result<String, ArmError> {
-        let mut line = String::new();
-        let mut most = self.lines.by_ref().take(LONGEST_LINE);
-        match most.read_line(&mut line) {
-            Ok(_) if line.ends_with('\n') => Ok(line.trim().to_owned()),
-            Ok(_) => {
-                let detail = format!("the dashboard went away while '{awaited}' was awaited");
-                Err(ArmError::new(fault::LINK_LOST, detail))
+        let deadline = Instant::now() + self.patience;
+        let mut buffer = [0; 512];
+        loop {
+            if let Some(end) = self.waiting.iter().position(|byte| *byte == b'\n') {
+                let line = String::from_utf8_lossy(&self.waiting[..end]);
+                let line = line.trim().to_owned();
+                self.waiting.drain(..=end);
+                return Ok(line);
             }
-            Err(error) => Err(lost(awaited, &error)),
+            if self.waiting.len() > LONGEST_LINE {
+                let detail = format!("no line ends where '{awaited}' was awaited");
+                return Err(ArmError::new(fault::PROTOCOL, detail + HINT));
+            }
+            if Instant::now() > deadline {
+                return Err(lost(awaited, &ErrorKind::TimedOut.into()));
+            }
+            match self.stream.read(&mut buffer) {
+                Ok(0) => {
+                    let detail = format!("the dashboard went away while '{awaited}' was awaited");
+                    return Err(ArmError::new(fault::LINK_LOST, detail + HINT));
+                }
+                Ok(size) => self.waiting.extend_from_slice(&buffer[..size]),
+                Err(error) if error.kind() == ErrorKind::Interrupted => {}
+                Err(error) => return Err(lost(awaited, &error)),
+            }
         }
     }
 }
 
-fn lost(doing: &str, error: &std::io::Error) -> ArmError {
-    let detail = format!("the dashboard was lost at '{doing}': {error}");
-    ArmError::new(fault::LINK_LOST, detail)
+fn lost(doing: &str, error: &Error) -> ArmError {
+    let detail = match error.kind() {
+        ErrorKind::WouldBlock | ErrorKind::TimedOut => {
+            format!("the dashboard took too long where '{doing}' was awaited")
+        }
+        _ => format!("the dashboard was lost at '{doing}': {error}"),
+    };
+    ArmError::new(fault::LINK_LOST, detail + HINT)
 }

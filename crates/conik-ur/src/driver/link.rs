@@ -73,7 +73,8 @@ impl Link {
         say: &mut dyn FnMut(&str),
     ) -> Result<Self, ArmError> {
         let stream = connect(config, config.rtde_port)?;
-        let mut session = Session::greet(stream).map_err(|error| fault::of_session(&error))?;
+        let mut session = Session::greet_within(stream, config.link_timeout)
+            .map_err(|error| fault::of_session(&error))?;
         let version = session.version();
         plan::check_series(config, version)?;
         plan::check_registers(config, version)?;

@@ -43,7 +43,7 @@ pub fn preflight(
 ) -> Result<Preflight, ArmError> {
     let of_session = |error: SessionError| fault::of_session(&error);
     let stream = connect(config, config.rtde_port)?;
-    let mut session = Session::greet(stream).map_err(of_session)?;
+    let mut session = Session::greet_within(stream, config.link_timeout).map_err(of_session)?;
     let version = session.version();
     plan::check_series(config, version)?;
     plan::check_registers(config, version)?;

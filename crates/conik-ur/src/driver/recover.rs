@@ -94,8 +94,8 @@ fn check_remote_control(dashboard: &mut Dashboard) -> Result<(), ArmError> {
 fn state(dashboard: &mut Dashboard, question: &str) -> Result<String, ArmError> {
     let answer = dashboard.ask(question)?;
     match answer.split_once(": ") {
-        Some((_, state)) => Ok(state.trim().to_owned()),
-        None => Err(ArmError::new(
+        Some((what, state)) if what.eq_ignore_ascii_case(question) => Ok(state.trim().to_owned()),
+        _ => Err(ArmError::new(
             fault::PROTOCOL,
             format!("the dashboard answers '{question}' with: {answer}"),
         )),

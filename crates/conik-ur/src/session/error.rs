@@ -9,7 +9,9 @@ pub enum SessionError {
     #[error("{0}")]
     Lost(String),
     /// The other side does not speak RTDE as we know it.
-    #[error("the other side does not speak RTDE version {PROTOCOL_VERSION}: {0}")]
+    #[error(
+        "the other side does not speak RTDE version {PROTOCOL_VERSION}: {0}; is it a UR controller?"
+    )]
     Wire(#[from] WireError),
     /// Version 2 of the protocol was refused.
     #[error(
@@ -52,4 +54,16 @@ pub enum SessionError {
     /// The controller did not begin to send.
     #[error("the controller refuses to start sending")]
     StartRefused,
+}
+
+impl SessionError {
+    /// What it means if not even the first question was answered.
+    pub(super) fn at_first_word(self) -> Self {
+        match self {
+            Self::Lost(cause) => Self::Lost(format!(
+                "{cause}; is it a UR controller, and this its RTDE port?"
+            )),
+            other => other,
+        }
+    }
 }

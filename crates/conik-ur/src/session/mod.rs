@@ -9,6 +9,7 @@ use crate::wire::{
     ControllerVersion, FieldType, PROTOCOL_VERSION, Reply, Request, TextMessage, Value,
 };
 use std::io::{self, Read, Write};
+use std::time::{Duration, Instant};
 
 mod error;
 mod recipe;
@@ -41,11 +42,20 @@ pub struct Session<S> {
     outputs: Recipe,
     inputs: Recipe,
     last_text: Option<TextMessage>,
+    /// How long an answer, or outputs, may take, whatever else comes in meanwhile.
+    patience: Duration,
+    deadline: Option<Instant>,
 }
 
 impl<S: Read + Write> Session<S> {
     /// Agrees on the protocol and asks for the controller's version.
     pub fn greet(stream: S) -> Result<Self, SessionError> {
+        Self::greet_within(stream, Duration::MAX)
+    }
+
+    /// As [`greet`](Self::greet); from here on, whoever sends on and on but never what is awaited
+    /// counts as lost after `patience`. A stream that falls silent must end its reads by itself.
+    pub fn greet_within(stream: S, patience: Duration) -> Result<Self, SessionError> {
         let mut session = Self {
             stream,
             reader: FrameReader::new(),
@@ -59,11 +69,14 @@ impl<S: Read + Write> Session<S> {
             outputs: Recipe::default(),
             inputs: Recipe::default(),
             last_text: None,
+            patience,
+            deadline: None,
         };
-        match session.ask(
-            "protocol version",
-            &Request::ProtocolVersion(PROTOCOL_VERSION),
-        )? {
+        let question = Request::ProtocolVersion(PROTOCOL_VERSION);
+        let answer = session
+            .ask("protocol version", &question)
+            .map_err(SessionError::at_first_word)?;
+        match answer {
             Reply::ProtocolVersion(true) => {}
             Reply::ProtocolVersion(false) => return Err(SessionError::ProtocolRefused),
             _ => return Err(SessionError::OutOfOrder("protocol version")),
@@ -133,6 +146,7 @@ impl<S: Read + Write> Session<S> {
 
     /// Waits for outputs and returns the newest that are there.
     pub fn latest(&mut self) -> Result<Latest, SessionError> {
+        self.deadline = Instant::now().checked_add(self.patience);
         let mut newest: Option<Vec<u8>> = None;
         let mut passed_over = 0;
         let mut more_may_wait = false;
@@ -179,6 +193,7 @@ impl<S: Read + Write> Session<S> {
     /// Sends a request and waits for its answer; messages and data in between are not answers.
     fn ask(&mut self, awaited: &'static str, request: &Request) -> Result<Reply, SessionError> {
         self.request(request)?;
+        self.deadline = Instant::now().checked_add(self.patience);
         for _ in 0..PATIENCE {
             match self.next_reply()? {
                 Reply::Text(message) => self.last_text = Some(message),
@@ -200,6 +215,12 @@ impl<S: Read + Write> Session<S> {
 
     /// Waits for bytes and returns how many came.
     fn receive(&mut self) -> Result<usize, SessionError> {
+        if self
+            .deadline
+            .is_some_and(|deadline| Instant::now() > deadline)
+        {
+            return Err(self.lost("reading from", &io::ErrorKind::TimedOut.into()));
+        }
         loop {
             match self.stream.read(&mut self.buffer) {
                 Ok(0) => {
