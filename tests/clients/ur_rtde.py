@@ -18,7 +18,9 @@ dashboard.connect()
 assert dashboard.robotmode() == "Robotmode: RUNNING", dashboard.robotmode()
 assert "NORMAL" in dashboard.safetystatus()
 assert not dashboard.running()
-print("Dashboard:", dashboard.polyscopeVersion(), "ok")
+version = dashboard.polyscopeVersion()
+rate = 125.0 if version.removeprefix("URSoftware ").startswith("3.") else 500.0
+print("Dashboard:", version, "ok")
 
 receive = rtde_receive.RTDEReceiveInterface(host)
 q0 = receive.getActualQ()
@@ -32,14 +34,14 @@ for upper in (True, False):
     flags = rtde_control.RTDEControlInterface.FLAG_UPLOAD_SCRIPT
     if upper:
         flags |= rtde_control.RTDEControlInterface.FLAG_UPPER_RANGE_REGISTERS
-    control = rtde_control.RTDEControlInterface(host, 500.0, flags)
+    control = rtde_control.RTDEControlInterface(host, rate, flags)
     assert control.isProgramRunning() and dashboard.running()
     q = receive.getActualQ()
     start = q[5]
-    for _ in range(500):
+    for _ in range(int(rate)):
         period = control.initPeriod()
-        q[5] += 0.001
-        assert control.servoJ(q, 0.5, 0.5, 0.002, 0.1, 300)
+        q[5] += 0.5 / rate
+        assert control.servoJ(q, 0.5, 0.5, 1 / rate, 0.1, 300)
         control.waitPeriod(period)
     time.sleep(1.0)
     moved = receive.getActualQ()[5] - start

@@ -56,6 +56,13 @@ pub fn all() -> Vec<Step> {
             ..command("Python package", &["python3", "tests/in_environment.py"])
         },
         Step {
+            needs: vec![PYTHON],
+            ..command(
+                "real clients against the emulator",
+                &["python3", "tests/clients/run.py"],
+            )
+        },
+        Step {
             folder: "viewer/src",
             needs: vec![NODE, CHROMIUM],
             ..command("page", &["npm", "--prefix", "..", "run", "test:all"])

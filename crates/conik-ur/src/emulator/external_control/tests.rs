@@ -244,3 +244,43 @@ fn a_program_that_is_dropped_dials_no_more() {
         assert!(listener.accept().is_err(), "nobody called");
     }
 }
+
+/// Marsaglia's xorshift: the same noise in every run.
+fn noise(state: &mut u64) -> u64 {
+    *state ^= *state << 13;
+    *state ^= *state >> 7;
+    *state ^= *state << 17;
+    *state
+}
+
+#[test]
+fn whatever_comes_in_the_targets_are_finite_and_the_end_is_the_end() {
+    let mut state = 0x9E37_79B9_7F4A_7C15;
+    for _ in 0..20 {
+        let (mut program, [mut trajectory, mut commands, mut client]) = connected();
+        for _ in 0..200 {
+            let mut bytes: Vec<u8> = (0..4)
+                .flat_map(|_| noise(&mut state).to_be_bytes())
+                .collect();
+            // Mostly servoj, or it would end at once; now and then cut.
+            if !noise(&mut state).is_multiple_of(16) {
+                bytes[28..].copy_from_slice(&SERVOJ.to_be_bytes());
+            }
+            if noise(&mut state).is_multiple_of(64) {
+                bytes.truncate(11);
+            }
+            let line = match noise(&mut state) % 64 {
+                0 => &mut commands,
+                1 => &mut trajectory,
+                _ => &mut client,
+            };
+            // It may have hung up, which is its right.
+            let _ = line.write_all(&bytes);
+            let had_ended = program.ending().is_some();
+            let motion = program.cycle(&still());
+            if let Some(target) = target(motion) {
+                assert!(target.is_finite() && !had_ended);
+            }
+        }
+    }
+}
