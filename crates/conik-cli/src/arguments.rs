@@ -204,7 +204,8 @@ pub struct PreflightArguments {
 /// `conik recover`
 #[derive(Debug, Args)]
 #[command(
-    after_help = "A protective stop is unlocked after 5 s. Emergency stops, safeguard stops \
+    after_help = "A protective stop is unlocked after 5 s, and the arm is armed anew after a run that \
+    did not end in order (killed, a fault, stopped at the pendant). Emergency stops, safeguard stops \
     and safety faults are named and left to the person beside the arm. The next `conik run` starts \
     where the arm stands. Exit status: 0 a run may start; 1 it may not; 2 bad usage."
 )]

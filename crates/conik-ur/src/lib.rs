@@ -15,7 +15,7 @@
 //! ```
 //!
 //! **Transport.** The controller sends its state in every cycle. The driver answers each package
-//! with one: `q_ref`, `qd_ref` and a counter in input registers. A program of some eighty lines on
+//! with one: `q_ref`, `qd_ref`, `servoj`'s parameters and a counter in input registers. A program of some ninety lines on
 //! the controller ([`program`]) gives each new `q_ref` to `servoj`, bridges a few missing ones with
 //! `qd_ref`, then stops the arm and ends. No port is opened on this computer.
 //!
@@ -59,6 +59,7 @@ pub mod model;
 pub mod program;
 pub mod realtime;
 pub mod registers;
+pub mod servoj;
 pub mod session;
 pub mod status;
 pub mod timing;

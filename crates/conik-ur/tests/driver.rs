@@ -6,6 +6,7 @@ mod stub;
 mod driver {
     mod driving;
     mod fault;
+    mod rearm;
     mod recover;
     mod refusal;
     mod start;

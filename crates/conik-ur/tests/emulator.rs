@@ -194,8 +194,6 @@ fn a_driver_that_vanishes_leaves_an_arm_that_stops_by_itself() {
         let text = conik_ur::program::ServoProgram {
             session: 77,
             cycle_s: 0.008,
-            lookahead_s: 0.1,
-            gain: 300.0,
             extrapolated_cycles: 5,
             stop_deceleration: 4.0,
             watchdog_hz: 10.0,
@@ -498,8 +496,13 @@ impl RawClient {
     /// Claims the counter and the command, asks for the servo program's phase, and starts.
     fn claim_and_start(&mut self) {
         self.ask_for_phase();
-        self.request(b'I', b"input_int_register_24,input_int_register_25,");
-        assert_eq!(self.package(), (b'I', b"\x01INT32,INT32".to_vec()));
+        self.request(
+            b'I',
+            b"input_int_register_24,input_int_register_25,input_double_register_36,\
+              input_double_register_37,input_double_register_38,",
+        );
+        let types = b"\x01INT32,INT32,DOUBLE,DOUBLE,DOUBLE".to_vec();
+        assert_eq!(self.package(), (b'I', types));
         self.request(b'S', &[]);
         assert_eq!(self.package(), (b'S', vec![1]));
     }
@@ -525,7 +528,9 @@ impl RawClient {
     }
 
     fn write_counter(&mut self, counter: i32, command: i32) {
-        let values = [counter.to_be_bytes(), command.to_be_bytes()].concat();
-        self.request(b'U', &[&[1][..], &values].concat());
+        let ints = [counter, command].map(i32::to_be_bytes).concat();
+        // Lookahead, gain and time of `servoj`.
+        let doubles = [0.1_f64, 300.0, 0.008].map(f64::to_be_bytes).concat();
+        self.request(b'U', &[&[1][..], &ints, &doubles].concat());
     }
 }

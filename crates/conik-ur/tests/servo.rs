@@ -5,6 +5,7 @@ use conik::JointVec;
 use conik_sim::arm::{Arm, ArmError, Reference};
 use conik_ur::driver::{UrArm, UrConfig};
 use conik_ur::emulator::{Emulator, EmulatorConfig, Injection, Pace, Series};
+use conik_ur::servoj::Servoj;
 use std::time::Duration;
 
 const Q0: [f64; 6] = [0.1, -1.5, 1.2, -0.4, 0.7, 0.0];
@@ -70,8 +71,7 @@ fn the_delay_to_a_ramp_is_the_lookahead_within_one_cycle() {
             let emulator = emulator(series);
             let rate_hz = series.rate_hz();
             let mut arm = UrArm::new(UrConfig {
-                lookahead_s,
-                gain,
+                servoj: Servoj { lookahead_s, gain },
                 ..emulator.driver_config()
             });
             arm.start(rate_hz).unwrap();

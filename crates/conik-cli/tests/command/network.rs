@@ -4,7 +4,7 @@ use std::io::{BufRead, BufReader};
 use std::net::TcpListener;
 use std::path::Path;
 
-use super::process::{Running, empty_folder, paper, say};
+use super::process::{Running, empty_folder, paper, say, wait_for};
 use super::run_folder::{Rows, summary};
 
 const RTDE_PORT: u16 = 30004;
@@ -64,6 +64,51 @@ fn run_drives_an_emulator_in_another_process() {
         "{second:#?}"
     );
 
+    emulator.signal("INT");
+    assert_eq!(emulator.wait().status, Some(0));
+}
+
+#[test]
+fn a_run_that_was_killed_is_followed_by_another_only_after_recover() {
+    let folder = empty_folder("killed on the arm");
+    let (emulator, offset) = emulator(&folder);
+    let line = format!(
+        "run {} --robot 127.0.0.1 --port-offset {offset} --quiet",
+        paper("example2").display()
+    );
+    let begun = |out: &str| {
+        let run = Running::start(&folder, &format!("{line} --duration-s 600 --out {out}"));
+        let log = folder.join(out).join("log.csv");
+        wait_for("rows", || {
+            std::fs::metadata(&log).ok().filter(|log| log.len() > 0)
+        });
+        run
+    };
+    let dry = || {
+        say(
+            &folder,
+            &format!("{line} --dry-run --duration-s 0.1 --out dry"),
+        )
+    };
+    let mut run = begun("killed");
+    run.child().kill().unwrap();
+    run.wait();
+    let refused = wait_for("the program's end", || {
+        Some(dry()).filter(|said| !said.stderr.contains("other-program-running"))
+    });
+    assert_eq!(refused.status, Some(1), "{refused:#?}");
+    assert!(
+        refused.stderr.starts_with("error: not-rearmed: "),
+        "{refused:#?}"
+    );
+    let recover = format!("recover 127.0.0.1 --port-offset {offset}");
+    let recovered = say(&folder, &recover);
+    assert_eq!(recovered.status, Some(0), "{recovered:#?}");
+    assert!(recovered.stdout.contains("arming anew"), "{recovered:#?}");
+    let again = say(&folder, &recover);
+    assert_eq!(again.stdout, "a run may start, from where the arm stands\n");
+    let next = dry();
+    assert!(!next.stderr.contains("not-rearmed"), "{next:#?}");
     emulator.signal("INT");
     assert_eq!(emulator.wait().status, Some(0));
 }

@@ -3,6 +3,7 @@
 use super::recover::UNLOCK_AFTER;
 use crate::program::Pose;
 use crate::registers::{JOINTS, RegisterBase};
+use crate::servoj::Servoj;
 use conik_sim::scenario::{UrModel, UrSeries, UrSettings};
 use std::f64::consts::{PI, TAU};
 use std::net::IpAddr;
@@ -51,10 +52,8 @@ pub struct UrConfig {
     pub controller_rate_hz: Option<f64>,
     /// Whether the controller's clock runs on its own. Only an emulator in lockstep waits for us.
     pub real_time: bool,
-    /// `servoj`'s lookahead time [s], 0.03 to 0.2: the delay with which the arm follows.
-    pub lookahead_s: f64,
-    /// `servoj`'s gain, 100 to 2000.
-    pub gain: f64,
+    /// `servoj`'s parameters at the start.
+    pub servoj: Servoj,
     /// How long the controller bridges missing references with `qd_ref` before it stops [s].
     pub extrapolate_s: f64,
     /// Deceleration when the program stops the arm [rad/s²].
@@ -115,8 +114,10 @@ impl UrConfig {
             name: None,
             controller_rate_hz: None,
             real_time: true,
-            lookahead_s: 0.1,
-            gain: 300.0,
+            servoj: Servoj {
+                lookahead_s: 0.1,
+                gain: 300.0,
+            },
             extrapolate_s: 0.04,
             stop_deceleration: 4.0,
             first_reference_within_s: 60.0,
@@ -148,8 +149,9 @@ impl UrConfig {
         let six = |limits: &Option<Vec<f64>>| limits.as_deref()?.try_into().ok();
         self.series = settings.series;
         self.model = settings.model;
-        self.lookahead_s = settings.servo_lookahead_s.unwrap_or(self.lookahead_s);
-        self.gain = settings.servo_gain.unwrap_or(self.gain);
+        let servoj = &mut self.servoj;
+        servoj.lookahead_s = settings.servo_lookahead_s.unwrap_or(servoj.lookahead_s);
+        servoj.gain = settings.servo_gain.unwrap_or(servoj.gain);
         self.extrapolate_s = settings.bridge_s.unwrap_or(self.extrapolate_s);
         self.payload_kg = settings.payload_kg.or(self.payload_kg);
         if let Some([x, y, z]) = settings.tcp_offset_m {

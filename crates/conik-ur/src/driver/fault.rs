@@ -21,6 +21,8 @@ pub const BAD_SETTING: &str = "bad-setting";
 pub const DASHBOARD_REFUSED: &str = "dashboard-refused";
 /// An e-Series in local control.
 pub const NOT_REMOTE: &str = "not-in-remote-control";
+/// The last Conik program on the controller did not end in order.
+pub const NOT_REARMED: &str = "not-rearmed";
 /// A step of a recovery did not come to its end.
 pub const NOT_RECOVERED: &str = "not-recovered";
 /// Not the arm that is asked for.
@@ -155,6 +157,12 @@ pub(super) fn of_run(status: &Status, session: i32) -> Option<ArmError> {
                  for what delayed this computer or the network",
             ));
         }
+        Some(Phase::Stopped | Phase::StoppedByFault) => {
+            return Some(ArmError::new(
+                PROGRAM_STOPPED,
+                "the servo program was told to stop by someone else",
+            ));
+        }
         Some(Phase::GaveUp) => {
             return Some(ArmError::new(
                 PROGRAM_STOPPED,
@@ -175,6 +183,12 @@ pub(super) fn of_run(status: &Status, session: i32) -> Option<ArmError> {
         return Some(ArmError::new(PROGRAM_STOPPED, detail));
     }
     None
+}
+
+/// Whether the next run must be asked for with an explicit re-arm: not where it was this program
+/// that refused a reference or was called in the wrong order, while arm and link were well.
+pub(super) fn latches_the_arm(fault: &ArmError) -> bool {
+    ![REFERENCE_REFUSED, FIRST_REFERENCE_AWAY, OUT_OF_TURN].contains(&fault.name)
 }
 
 /// The fault that a session's error is.

@@ -9,12 +9,14 @@ use super::pace::{self, Pace, Stamp};
 use super::plan;
 use super::rate::RateCheck;
 use crate::program::ServoProgram;
-use crate::registers::{Command, JOINTS, Phase};
+use crate::registers::{Command, DOUBLES, INTS, JOINTS, Phase};
+use crate::servoj::Servoj;
 use crate::session::{Session, SessionError};
 use crate::status::{Status, runtime_state};
 use crate::wire::Value;
 use conik_sim::arm::{ArmError, Feedback, Reference};
 use conik_sim::cycle_times::CycleTimes;
+use std::fmt::Display;
 use std::io::Write;
 use std::mem;
 use std::net::TcpStream;
@@ -39,8 +41,12 @@ pub(super) struct Link {
     stop_timeout: Duration,
     /// What was sent last; a stop repeats it.
     sent: Sent,
+    /// How `servoj` is to follow from the next reference on.
+    servoj: Servoj,
     turn: Turn,
     times: CycleTimes,
+    /// Whether a fault is why the program is told to stop.
+    stops_by_fault: bool,
 }
 
 /// The values of the input registers.
@@ -49,6 +55,7 @@ struct Sent {
     counter: i32,
     q: [f64; JOINTS],
     qd: [f64; JOINTS],
+    servoj: Servoj,
 }
 
 /// Who is expected to do what.
@@ -66,10 +73,11 @@ impl Link {
     /// Connects, checks that the arm may move, and brings the servo program to where it waits for
     /// the first reference. Nothing moves.
     ///
-    /// `say` hears what could not be checked or had to be waited for.
+    /// `acknowledged` is a session after which the arm was armed anew already. `say` hears what could not be checked or had to be waited for.
     pub(super) fn open(
         config: &UrConfig,
         rate_hz: f64,
+        acknowledged: Option<i32>,
         say: &mut dyn FnMut(&str),
     ) -> Result<Self, ArmError> {
         let stream = connect(config, config.rtde_port)?;
@@ -79,10 +87,11 @@ impl Link {
         plan::check_series(config, version)?;
         plan::check_registers(config, version)?;
         let every = plan::cycles_per_reference(config, version, rate_hz)?;
-        let program = plan::program(config, rate_hz)?;
-        let text = program
-            .text()
-            .map_err(|error| ArmError::new(fault::BAD_SETTING, error.to_string()))?;
+        let bad_setting =
+            |error: &dyn Display| ArmError::new(fault::BAD_SETTING, error.to_string());
+        config.servoj.check().map_err(|error| bad_setting(&error))?;
+        let mut program = plan::program(config, rate_hz)?;
+        program.check().map_err(|error| bad_setting(&error))?;
         // Before packages come: none waits meanwhile.
         Identity::ask_and_check(config, say)?;
 
@@ -93,9 +102,11 @@ impl Link {
             say,
         )
         .map_err(|error| fault::of_session(&error))?;
-        if let Some(hindrance) = plan::hindrance(&status) {
+        if let Some(hindrance) = plan::hindrance_of_run(&status, acknowledged) {
             return Err(hindrance);
         }
+        program.session = plan::session_number(status.session);
+        let text = program.text().map_err(|error| bad_setting(&error))?;
         let pace = Pace {
             cycle_s: program.cycle_s,
             bridged_cycles: program.extrapolated_cycles,
@@ -115,9 +126,12 @@ impl Link {
                 counter: 0,
                 q: status.target_q,
                 qd: [0.0; JOINTS],
+                servoj: config.servoj,
             },
+            servoj: config.servoj,
             turn: Turn::FirstCycle,
             times: CycleTimes::default(),
+            stops_by_fault: false,
         };
         if config.dry_run {
             return Ok(link);
@@ -180,6 +194,16 @@ impl Link {
         &self.status
     }
 
+    /// The number that the servo program hands back.
+    pub(super) fn session(&self) -> i32 {
+        self.program.session
+    }
+
+    /// From the next reference on; the parameters are checked already.
+    pub(super) fn set_servoj(&mut self, servoj: Servoj) {
+        self.servoj = servoj;
+    }
+
     /// How the cycles came and were answered so far.
     pub(super) fn times(&self) -> &CycleTimes {
         &self.times
@@ -198,7 +222,7 @@ impl Link {
     /// Waits for the controller's next cycle.
     pub(super) fn next_cycle(&mut self) -> Result<Feedback, ArmError> {
         let before = self.stamp();
-        let passed_over = self.read()?;
+        let passed_over = self.read().map_err(|fault| self.left_alone(fault))?;
         self.count(before);
         let fault = if self.dry_run {
             plan::hindrance(&self.status)
@@ -219,6 +243,23 @@ impl Link {
             q: Some(self.status.actual_q.into()),
             missed_cycles,
         })
+    }
+
+    /// A fault after which the controller cannot be told to stop the arm, or may not hear it.
+    fn left_alone(&self, fault: ArmError) -> ArmError {
+        if self.dry_run || self.sent.counter == 0 {
+            return fault;
+        }
+        let detail = format!("{}; {}", fault.detail, self.stops_by_itself());
+        ArmError::new(fault.name, detail)
+    }
+
+    fn stops_by_itself(&self) -> String {
+        format!(
+            "without references the servo program stops the arm by itself within {:.3} s: watch the \
+             arm",
+            self.program.cycle_s * f64::from(self.program.extrapolated_cycles + 1)
+        )
     }
 
     /// Counts the package that has come; one that comes again is counted even if it ends the run.
@@ -256,46 +297,63 @@ impl Link {
             counter: self.sent.counter.wrapping_add(1),
             q: checked.q,
             qd: checked.qd,
+            servoj: self.servoj,
         };
         self.turn = Turn::Cycle;
         if !self.dry_run {
-            self.write(Command::Servo)?;
+            self.write(Command::Servo)
+                .map_err(|fault| self.left_alone(fault))?;
         }
         self.times.answered_after(self.status_came.elapsed());
         Ok(())
     }
 
-    /// Lets the servo program stop the arm and end, and waits until it has.
+    /// Lets the servo program stop the arm and end, and waits until it has. `fault` is what ended the
+    /// run, if something did.
     ///
     /// Where the program is over already, nothing is sent. One that is paused is told all the same:
     /// it then ends as soon as someone resumes it, instead of driving to where it once was sent.
-    pub(super) fn stop(mut self) -> Result<(), ArmError> {
+    pub(super) fn stop(mut self, fault: Option<&ArmError>) -> Result<(), ArmError> {
         if self.dry_run {
             return Ok(());
         }
+        self.stops_by_fault = fault.is_some_and(fault::latches_the_arm);
         let deadline = Instant::now() + self.stop_timeout;
         let end = loop {
             let ours = self.status.session == self.program.session;
             if !ours || self.status.runtime_state == runtime_state::STOPPED {
-                return Ok(());
+                return self.ended(fault);
             }
             if let Err(fault) = self.write(Command::Stop).and_then(|()| self.read()) {
                 break fault.detail;
             }
             if self.status.program_is_still() {
-                return Ok(());
+                return self.ended(fault);
             }
             if Instant::now() > deadline {
                 break "its program still runs".to_owned();
             }
         };
         let detail = format!(
-            "the controller did not confirm the stop ({end}); without references the servo \
-             program stops the arm by itself within {:.3} s: watch the arm, the emergency stop at \
-             hand",
-            self.program.cycle_s * f64::from(self.program.extrapolated_cycles + 1)
+            "the controller did not confirm the stop ({end}); {}, the emergency stop at hand",
+            self.stops_by_itself()
         );
         Err(ArmError::new(fault::STOP_UNCONFIRMED, detail))
+    }
+
+    /// Whether the program ended by itself, or something else ended it while it stopped the arm.
+    /// Where a fault had ended the run, that is the one to report.
+    fn ended(&self, fault: Option<&ArmError>) -> Result<(), ArmError> {
+        let in_order = [Phase::Waiting, Phase::Stopped, Phase::GaveUp];
+        let ours = self.status.session == self.program.session;
+        if fault.is_some() || ours && self.status.phase.is_some_and(|it| in_order.contains(&it)) {
+            return Ok(());
+        }
+        let fault = fault::of_run(&self.status, self.program.session);
+        Err(fault.unwrap_or_else(|| {
+            let detail = "the servo program was ended while it stopped the arm";
+            ArmError::new(fault::PROGRAM_STOPPED, detail)
+        }))
     }
 
     /// Ends a servo program that may have been started, if it can still be reached.
@@ -318,14 +376,22 @@ impl Link {
     }
 
     fn write(&mut self, command: Command) -> Result<(), ArmError> {
-        let mut values = [Value::Int32(0); 2 + 2 * JOINTS];
-        values[0] = Value::Int32(self.sent.counter);
-        values[1] = Value::Int32(command as i32);
-        for (value, number) in values[2..]
+        let Sent {
+            counter,
+            q,
+            qd,
+            servoj,
+        } = self.sent;
+        let ints = [counter, command as i32, i32::from(self.stops_by_fault)];
+        let doubles = [servoj.lookahead_s, servoj.gain, self.program.cycle_s];
+        let doubles = q.into_iter().chain(qd).chain(doubles);
+        let numbers = ints.map(Value::Int32).into_iter();
+        let mut values = [Value::Int32(0); (INTS + DOUBLES) as usize];
+        for (value, number) in values
             .iter_mut()
-            .zip(self.sent.q.iter().chain(&self.sent.qd))
+            .zip(numbers.chain(doubles.map(Value::Double)))
         {
-            *value = Value::Double(*number);
+            *value = number;
         }
         self.session
             .send(&values)

@@ -5,6 +5,7 @@
 //! | `config` | where the controller is and how it is to be driven |
 //! | `connect` | TCP connections with time-outs |
 //! | `dashboard`, `identity` | which arm it is, and whether it takes programs from afar |
+//! | `rearm` | the latch that the controller holds after a run that did not end in order |
 //! | `recover` | from a stop back to where a run may start |
 //! | `link` | one connection, from the handshake to the stop |
 //! | `pace`, `rate` | what is late, what is no clock, and whether it keeps the rate |
@@ -24,10 +25,12 @@ mod pace;
 mod plan;
 pub mod preflight;
 mod rate;
+mod rearm;
 pub mod recover;
 
 pub use config::UrConfig;
 
+use crate::servoj::{BadServoj, Servoj};
 use crate::status::Status;
 use conik::JointVec;
 use conik_sim::arm::{Arm, ArmError, Feedback, Reference};
@@ -40,6 +43,10 @@ use std::fmt;
 /// A fault is latched: from then on nothing but a stop goes to the arm, and every call reports the
 /// same fault. It takes `stop`, [`rearm`](Self::rearm) and `start`, in this order, to move again, and
 /// then only from the pose where the arm stands. Dropping a started arm stops it.
+///
+/// The controller holds a latch of its own, which outlives this program: after a run that did not end
+/// in order, `start` of another `UrArm` refuses with [`NOT_REARMED`](fault::NOT_REARMED) until
+/// [`recover`](recover::recover) has cleared it.
 #[derive(Debug)]
 pub struct UrArm {
     config: UrConfig,
@@ -48,6 +55,10 @@ pub struct UrArm {
     warned: Listener,
     /// Those of the link, once it is closed.
     times: Option<CycleTimes>,
+    /// The session that ran last.
+    session: Option<i32>,
+    /// The session after which it was armed anew.
+    acknowledged: Option<i32>,
 }
 
 /// Takes in what is said.
@@ -80,6 +91,8 @@ impl UrArm {
             fault: None,
             warned: Listener::default(),
             times: None,
+            session: None,
+            acknowledged: None,
         }
     }
 
@@ -111,6 +124,18 @@ impl UrArm {
                 .unwrap_or_else(|| ArmError::new(fault::ALREADY_STARTED, detail)));
         }
         self.fault = None;
+        self.acknowledged = self.session;
+        Ok(())
+    }
+
+    /// Changes how `servoj` follows, from the next reference on. What it does not take is refused,
+    /// and what held before holds on.
+    pub fn set_servoj(&mut self, servoj: Servoj) -> Result<(), BadServoj> {
+        servoj.check()?;
+        self.config.servoj = servoj;
+        if let Some(link) = &mut self.link {
+            link.set_servoj(servoj);
+        }
         Ok(())
     }
 
@@ -139,7 +164,11 @@ impl Arm for UrArm {
             let detail = "the arm is already started: stop it before it is started again";
             return Err(ArmError::new(fault::ALREADY_STARTED, detail));
         }
-        let link = Link::open(&self.config, rate_hz, &mut |words| self.warned.say(words))?;
+        let acknowledged = self.acknowledged;
+        let link = Link::open(&self.config, rate_hz, acknowledged, &mut |words| {
+            self.warned.say(words);
+        })?;
+        self.session = Some(link.session());
         let q = link.status().target_q;
         self.link = Some(link);
         Ok(q.into())
@@ -157,7 +186,7 @@ impl Arm for UrArm {
         match self.link.take() {
             Some(mut link) => {
                 self.times = Some(link.take_times());
-                link.stop()
+                link.stop(self.fault.as_ref())
             }
             None => Ok(()),
         }

@@ -1,8 +1,9 @@
 //! What is settled before references flow: rate, registers and the parameters of the program.
 
 use super::config::UrConfig;
-use super::fault;
+use super::{fault, rearm};
 use crate::program::ServoProgram;
+use crate::registers;
 use crate::status::{Status, runtime_state};
 use crate::wire::ControllerVersion;
 use conik_sim::arm::ArmError;
@@ -107,7 +108,13 @@ pub(super) fn output_frequency(controller_rate: f64, every: f64) -> f64 {
     (controller_rate / every * (1.0 - 1e-9)).max(1.0)
 }
 
-/// Why a run cannot start now: the arm may not move, or a program has it.
+/// Why a run cannot start now: the arm may not move, a program has it, or the last one left it
+/// latched.
+pub(super) fn hindrance_of_run(status: &Status, acknowledged: Option<i32>) -> Option<ArmError> {
+    hindrance(status).or_else(|| rearm::latched(status, acknowledged))
+}
+
+/// Why nothing can be done with the arm now: it may not move, or a program has it.
 pub(super) fn hindrance(status: &Status) -> Option<ArmError> {
     fault::of_arm(status).or_else(|| {
         let detail = if status.runtime_state == runtime_state::PAUSED {
@@ -134,10 +141,9 @@ pub(super) fn program(config: &UrConfig, rate_hz: f64) -> Result<ServoProgram, A
     }
     let cycles = (config.extrapolate_s * rate_hz).floor().max(1.0);
     Ok(ServoProgram {
-        session: session_number(),
+        // The controller's last one decides it.
+        session: 0,
         cycle_s,
-        lookahead_s: config.lookahead_s,
-        gain: config.gain,
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)] // 1 to 1000, above.
         extrapolated_cycles: cycles as u32,
         stop_deceleration: config.stop_deceleration,
@@ -151,13 +157,10 @@ pub(super) fn program(config: &UrConfig, rate_hz: f64) -> Result<ServoProgram, A
     })
 }
 
-/// A number that no recent session had.
-fn session_number() -> i32 {
-    let nanoseconds = SystemTime::now()
-        .duration_since(UNIX_EPOCH)
-        .map_or(0, |since| since.subsec_nanos());
-    // Below 10⁹, so it fits.
-    i32::try_from(nanoseconds).unwrap_or(0) + 1
+/// A number that the controller's last session did not have.
+pub(super) fn session_number(last: i32) -> i32 {
+    let since = SystemTime::now().duration_since(UNIX_EPOCH);
+    registers::session_number(last, since.map_or(0, |since| since.subsec_micros()))
 }
 
 #[cfg(test)]

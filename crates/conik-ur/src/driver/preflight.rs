@@ -94,7 +94,7 @@ pub fn preflight(
             .as_ref()
             .ok()
             .and_then(|identity| identity.check(config).err())
-            .or_else(|| plan::hindrance(&status)),
+            .or_else(|| plan::hindrance_of_run(&status, None)),
         identity,
         timing,
     })

@@ -3,7 +3,7 @@
 
 use super::config::UrConfig;
 use super::dashboard::Dashboard;
-use super::{fault, identity};
+use super::{fault, identity, rearm};
 use conik_sim::arm::ArmError;
 use std::thread;
 use std::time::{Duration, Instant};
@@ -14,17 +14,37 @@ pub const UNLOCK_AFTER: Duration = Duration::from_secs(5);
 /// Between two looks at the controller's mode.
 const LOOK_EVERY: Duration = Duration::from_millis(100);
 
-/// Frees the arm from a protective stop, and with `power_on` powers it and releases its brakes.
-/// `say` hears each step before it is taken.
+/// Frees the arm from a protective stop, with `power_on` powers it and releases its brakes, and arms
+/// it anew after a run that did not end in order. `say` hears each step before it is taken.
 ///
 /// An emergency stop, a safeguard stop and a safety fault are for the person beside the arm: they
-/// are named, not lifted.
+/// are named, not lifted. A controller without a dashboard can only be armed anew.
 pub fn recover(
     config: &UrConfig,
     power_on: bool,
     say: &mut dyn FnMut(&str),
 ) -> Result<(), ArmError> {
-    let mut dashboard = Dashboard::connect(config)?;
+    match Dashboard::connect(config) {
+        Ok(dashboard) => free(config, dashboard, power_on, say)?,
+        Err(fault) if power_on => return Err(fault),
+        // Whether there is anything to free, RTDE tells.
+        Err(fault) => {
+            return match rearm::rearm(config, say) {
+                Err(other) if other.name == fault::CONNECT_FAILED => Err(fault),
+                result => result,
+            };
+        }
+    }
+    rearm::rearm(config, say)
+}
+
+/// What only the dashboard can do.
+fn free(
+    config: &UrConfig,
+    mut dashboard: Dashboard,
+    power_on: bool,
+    say: &mut dyn FnMut(&str),
+) -> Result<(), ArmError> {
     check_remote_control(&mut dashboard)?;
     let safety = state(&mut dashboard, "safetymode")?;
     match safety.as_str() {

@@ -182,6 +182,10 @@ mod tests {
         controller.write_input(InputField::Int(24), Value::Int32(counter));
         controller.write_input(InputField::Int(25), Value::Int32(Command::Servo as i32));
         controller.write_input(InputField::Double(24), Value::Double(q));
+        // Lookahead, gain and time of `servoj`.
+        for (register, value) in (36..).zip([0.1, 300.0, 0.008]) {
+            controller.write_input(InputField::Double(register), Value::Double(value));
+        }
     }
 
     /// With the program at where it waits for the first reference.

@@ -23,11 +23,14 @@ struct Run {
     mounted: Mounted,
     cycle_s: f64,
     cycles: u64,
+    /// Lookahead, gain and time of `servoj`.
+    servoj: [f64; 3],
 }
 
 impl Run {
     fn of(program: &ServoProgram, cycle_s: f64) -> Self {
         let config = EmulatorConfig::new(Series::Cb3, JointVec::zeros(JOINTS));
+        let program_cycle_s = program.cycle_s;
         let program = Program::parse(&program.text().unwrap()).unwrap();
         assert_eq!(program.name(), ServoProgram::NAME);
         let mut run = Self {
@@ -38,6 +41,7 @@ impl Run {
             mounted: Mounted::default(),
             cycle_s,
             cycles: 0,
+            servoj: [0.1, 300.0, program_cycle_s],
         };
         // Up to where it waits for the first reference.
         assert_eq!(run.cycle(), Motion::Rest);
@@ -76,6 +80,9 @@ impl Run {
         for joint in 24..30 {
             write(InputField::Double(joint), Value::Double(q));
             write(InputField::Double(joint + 6), Value::Double(qd));
+        }
+        for (register, value) in (36..).zip(self.servoj) {
+            write(InputField::Double(register), Value::Double(value));
         }
     }
 
@@ -125,20 +132,23 @@ fn each_reference_is_followed_in_the_cycle_in_which_it_is_there() {
 }
 
 #[test]
-fn servoj_is_given_the_lookahead_and_the_gain_asked_for() {
-    let asked = ServoProgram {
-        lookahead_s: 0.05,
-        gain: 750.0,
-        ..PROGRAM
-    };
-    let mut run = Run::of(&asked, 0.008);
-    run.give(1, Command::Servo, 0.0, 0.0);
-    let expected = Motion::Servo {
-        target: [0.0; JOINTS],
-        lookahead_s: 0.05,
-        gain: 750.0,
-    };
-    assert_eq!(run.cycle(), expected);
+fn servoj_is_given_the_lookahead_and_the_gain_that_come_with_each_reference() {
+    let mut run = Run::impatient(0.008);
+    for (counter, lookahead_s, gain) in [(1, 0.05, 750.0), (2, 0.2, 100.0)] {
+        run.servoj = [lookahead_s, gain, 0.008];
+        run.give(counter, Command::Servo, 0.0, 0.0);
+        let expected = Motion::Servo {
+            target: [0.0; JOINTS],
+            lookahead_s,
+            gain,
+        };
+        assert_eq!(run.cycle(), expected);
+        assert_eq!(
+            run.cycle(),
+            expected,
+            "a missing one is bridged with the same"
+        );
+    }
 }
 
 #[test]
@@ -167,9 +177,24 @@ fn the_command_to_stop_brakes() {
     run.target();
     run.give(2, Command::Stop, 2.0, 0.5);
     assert_eq!(run.cycle(), Motion::Brake(4.0));
-    assert_eq!(run.phase(), Some(Phase::Stopped));
+    assert_eq!(run.phase(), Some(Phase::Servoing), "not before it stands");
     run.cycle();
     assert!(run.program.is_over());
+    assert_eq!(run.phase(), Some(Phase::Stopped));
+}
+
+#[test]
+fn a_stop_because_of_a_fault_leaves_that_behind() {
+    let mut run = Run::impatient(0.008);
+    run.give(1, Command::Servo, 1.0, 0.5);
+    run.target();
+    let fault = (InputField::Int(26), Value::Int32(1));
+    run.registers.write_input(fault.0, fault.1, run.cycles);
+    run.give(1, Command::Stop, 1.0, 0.5);
+    assert_eq!(run.cycle(), Motion::Brake(4.0));
+    run.cycle();
+    assert!(run.program.is_over());
+    assert_eq!(run.phase(), Some(Phase::StoppedByFault));
 }
 
 #[test]

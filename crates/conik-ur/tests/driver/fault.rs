@@ -55,8 +55,10 @@ fn whatever_ends_a_run_is_latched_by_name_and_nothing_moves_the_arm_any_more() {
 
 #[test]
 fn a_link_that_ends_is_latched_by_name_and_nothing_moves_the_arm_any_more() {
-    let cases: [(&str, usize, Change); 3] = [
+    let cases: [(&str, usize, Change); 5] = [
         ("link-lost", 0, |o| o.link = LinkEnd::Closed),
+        ("link-lost", 0, |o| o.link = LinkEnd::Reset),
+        ("protocol", 1, |o| o.link = LinkEnd::Short),
         ("link-lost", 1, |o| o.link = LinkEnd::Silent),
         ("protocol", 1, |o| o.link = LinkEnd::Garbage),
     ];
@@ -71,6 +73,8 @@ fn a_link_that_ends_is_latched_by_name_and_nothing_moves_the_arm_any_more() {
             ..config(&stub)
         });
         latches(&mut arm, name);
+        let said = &arm.fault().unwrap().detail;
+        assert!(said.contains("by itself within 4.504 s"), "{said}");
         assert_eq!(arm.stop().unwrap_err().name, "stop-unconfirmed");
         stays_latched(&mut arm, name);
         ends_with(&stub.written(), name, stops);
@@ -89,6 +93,27 @@ fn a_package_that_comes_again_ends_the_run_and_is_counted() {
     let cycles = arm.cycle_times().unwrap().summary().unwrap();
     assert_eq!((cycles.repeated, cycles.period_us.count), (1, 3));
     stub.written();
+}
+
+#[test]
+fn the_slider_is_never_written_and_must_stand_at_100_percent() {
+    let stub = Stub::start(Behaviour {
+        from_start: Some(|o| o.speed_slider = 0.0),
+        ..Behaviour::default()
+    });
+    let fault = arm(&stub).start(RATE).unwrap_err();
+    assert_eq!(fault.name, "speed-slider");
+    assert!(fault.detail.contains("at 0 %"), "{fault}");
+    assert!(stub.written().is_empty());
+    // The stub takes no other input than the registers, so none is written in a run either.
+    let stub = Stub::start(Behaviour {
+        after: Some((3, |o| o.speed_slider = 0.99)),
+        ..Behaviour::default()
+    });
+    let mut arm = arm(&stub);
+    latches(&mut arm, "speed-slider");
+    arm.stop().unwrap();
+    ends_with(&stub.written(), "speed-slider", 1);
 }
 
 /// Runs until the fault after the third reference, and tries to go on.

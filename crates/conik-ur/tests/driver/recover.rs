@@ -1,13 +1,22 @@
 //! From a stop back to where a run may start, against a dashboard that only records.
 
+use super::driving::{HANG, RATE, config};
 use crate::stub::dashboard::{Dashboard, NOT_KNOWN, Panel, WELL};
-use conik_ur::driver::UrConfig;
+use crate::stub::{Behaviour, Change, Stub};
+use conik_sim::arm::Arm;
 use conik_ur::driver::recover::{power_on, recover};
+use conik_ur::driver::{UrArm, UrConfig};
 use std::time::Duration;
 
+/// A dashboard, and an arm that needs no re-arming.
 fn dashboard(panel: Panel) -> (UrConfig, Dashboard) {
     let dashboard = Dashboard::start(panel);
+    let stub = Stub::start(Behaviour {
+        streams: true,
+        ..Behaviour::default()
+    });
     let config = UrConfig {
+        rtde_port: stub.rtde_port,
         dashboard_port: dashboard.port,
         unlock_after: Duration::ZERO,
         recover_timeout: Duration::from_secs(1),
@@ -109,4 +118,89 @@ fn a_run_that_powers_the_arm_lifts_no_stop() {
     });
     power_on(&config, &mut |_| {}).unwrap();
     assert_eq!(dashboard.orders(), ["power on", "brake release"]);
+}
+
+/// What the last program on a controller left behind: its phase, and ours or another's number.
+fn left(phase: i32, ours: bool) -> Change {
+    match (phase, ours) {
+        (2, true) => |o| (o.phase, o.session) = (2, OURS),
+        (4, true) => |o| (o.phase, o.session) = (4, OURS),
+        (6, true) => |o| (o.phase, o.session) = (6, OURS),
+        (3, true) => |o| (o.phase, o.session) = (3, OURS),
+        (2, false) => |o| (o.phase, o.session) = (2, 2),
+        other => panic!("{other:?} is no case"),
+    }
+}
+
+/// A session number with the mark of Conik's servo program.
+const OURS: i32 = 0x434E_1234;
+
+#[test]
+fn a_run_that_did_not_end_in_order_keeps_the_next_from_starting() {
+    for (phase, ours, latched) in [
+        (2, true, true),
+        (4, true, true),
+        (6, true, true),
+        (3, true, false),
+        (2, false, false),
+    ] {
+        for dry_run in [false, true] {
+            let stub = Stub::start(Behaviour {
+                from_start: Some(left(phase, ours)),
+                ..Behaviour::default()
+            });
+            let mut arm = UrArm::new(UrConfig {
+                dry_run,
+                ..config(&stub)
+            });
+            let fault = arm.start(RATE).err();
+            drop(arm);
+            let case = format!("phase {phase}, ours: {ours}");
+            assert_eq!(fault.is_some(), latched, "{case}: {fault:?}");
+            let written = stub.written();
+            if let Some(fault) = fault {
+                assert_eq!(fault.name, "not-rearmed", "{case}");
+                assert!(fault.detail.contains("conik recover"), "{fault}");
+                assert!(written.is_empty(), "{case}");
+            }
+        }
+    }
+}
+
+#[test]
+fn recover_clears_what_the_last_program_left_and_moves_nothing() {
+    for with_dashboard in [true, false] {
+        let stub = Stub::start(Behaviour {
+            streams: true,
+            from_start: Some(left(2, true)),
+            ..Behaviour::default()
+        });
+        let dashboard = with_dashboard.then(|| Dashboard::start(WELL));
+        let config = UrConfig {
+            dashboard_port: dashboard.as_ref().map_or(1, |dashboard| dashboard.port),
+            recover_timeout: HANG,
+            ..config(&stub)
+        };
+        let mut said = Vec::new();
+        recover(&config, false, &mut |step| said.push(step.to_owned())).unwrap();
+        assert_eq!(said.len(), 1, "{said:?}");
+        assert!(said[0].contains("arming anew"), "{said:?}");
+        assert!(stub.written().is_empty(), "no reference, no register");
+        if let Some(dashboard) = dashboard {
+            assert!(dashboard.orders().is_empty());
+        }
+    }
+}
+
+#[test]
+fn an_arm_that_may_not_move_is_not_armed_anew() {
+    let stub = Stub::start(Behaviour {
+        streams: true,
+        from_start: Some(|o| (o.phase, o.session, o.safety_bits) = (2, OURS, 1 << 2)),
+        ..Behaviour::default()
+    });
+    // Without a dashboard nothing lifts the stop.
+    let fault = recover(&config(&stub), false, &mut |step| panic!("{step}")).unwrap_err();
+    assert_eq!(fault.name, "protective-stop");
+    assert!(stub.written().is_empty());
 }

@@ -43,7 +43,7 @@ fn a_reference_too_fast_is_refused_by_joint_value_and_limit() {
 }
 
 #[test]
-fn a_reference_that_took_too_long_is_not_sent() {
+fn a_reference_later_than_the_bridged_time_is_not_sent() {
     let stub = Stub::start(Behaviour::default());
     let q = Behaviour::default().q;
     let mut arm = UrArm::new(UrConfig {

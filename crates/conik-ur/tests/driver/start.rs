@@ -29,7 +29,7 @@ fn an_arm_that_may_not_move_is_not_started() {
 
 #[test]
 fn a_register_in_use_is_named_with_the_cure() {
-    let types = format!("IN_USE,INT32{}", ",DOUBLE".repeat(12));
+    let types = format!("IN_USE,INT32,INT32{}", ",DOUBLE".repeat(15));
     let stub = Stub::start(Behaviour {
         input_types: Some((usize::MAX, types)),
         ..Behaviour::default()
@@ -153,7 +153,10 @@ fn the_settings_of_a_scenario_are_taken_over() {
         ..UrSettings::default()
     });
     assert_eq!(config.host, "arm", "which arm is the caller's to say");
-    assert_eq!((config.lookahead_s, config.gain), (0.05, 500.0));
+    assert_eq!(
+        (config.servoj.lookahead_s, config.servoj.gain),
+        (0.05, 500.0)
+    );
     assert_eq!(config.extrapolate_s, 0.1);
     assert_eq!(config.model, Some(UrModel::Ur10));
     assert_eq!(config.payload_kg, Some(1.5));
@@ -238,7 +241,7 @@ fn a_controller_without_a_dashboard_is_driven_with_a_warning() {
 
 #[test]
 fn a_register_that_a_dead_connection_still_holds_is_waited_for() {
-    let types = format!("IN_USE,INT32{}", ",DOUBLE".repeat(12));
+    let types = format!("IN_USE,INT32,INT32{}", ",DOUBLE".repeat(15));
     let stub = Stub::start(Behaviour {
         input_types: Some((3, types)),
         ..Behaviour::default()
@@ -276,4 +279,15 @@ fn a_controller_that_does_not_keep_the_rate_is_refused() {
     assert!(fault.detail.contains("every 8.000 ms"), "{fault}");
     let written = stub.written();
     assert!(written.iter().all(|package| package.command != 1));
+}
+
+#[test]
+fn servoj_parameters_out_of_range_are_refused_before_anything_is_sent() {
+    let stub = Stub::start(Behaviour::default());
+    let mut config = config(&stub);
+    config.servoj.lookahead_s = 0.3;
+    let fault = UrArm::new(config).start(RATE).unwrap_err();
+    assert_eq!(fault.name, "bad-setting");
+    assert!(fault.detail.contains("lookahead [s] is 0.3"), "{fault}");
+    assert!(stub.written().is_empty());
 }

@@ -3,6 +3,7 @@
 use super::driving::{RATE, arm, at, curve, references, run};
 use crate::stub::{Behaviour, Stub};
 use conik_sim::arm::Arm;
+use conik_ur::servoj::Servoj;
 
 #[test]
 fn references_arrive_in_order_and_bit_by_bit() {
@@ -31,6 +32,7 @@ fn references_arrive_in_order_and_bit_by_bit() {
             assert_eq!(arrived.counter, number);
             assert_eq!(arrived.q.map(f64::to_bits)[..], bits(&sent.q));
             assert_eq!(arrived.qd.map(f64::to_bits)[..], bits(&sent.qd));
+            assert_eq!(arrived.servoj, [0.1, 300.0, 0.008]);
         }
         assert_eq!(written.last().unwrap().command, 2, "the last word is stop");
     }
@@ -91,4 +93,31 @@ fn no_number_that_is_not_finite_goes_out() {
                 .all(|value| value.is_finite())
         }));
     }
+}
+
+#[test]
+fn lookahead_and_gain_change_while_the_program_runs_and_never_leave_their_ranges() {
+    let stub = Stub::start(Behaviour::default());
+    let q = Behaviour::default().q;
+    let mut arm = arm(&stub);
+    arm.start(RATE).unwrap();
+    run(&mut arm, &[at(q); 2]).unwrap();
+    let changed = |lookahead_s, gain| Servoj { lookahead_s, gain };
+    arm.set_servoj(changed(0.05, 900.0)).unwrap();
+    run(&mut arm, &[at(q)]).unwrap();
+    for (lookahead_s, gain, name) in [
+        (0.02, 300.0, "lookahead"),
+        (f64::NAN, 300.0, "lookahead"),
+        (0.1, 2001.0, "gain"),
+    ] {
+        let refused = arm.set_servoj(changed(lookahead_s, gain)).unwrap_err();
+        assert!(refused.to_string().contains(name), "{refused}");
+    }
+    run(&mut arm, &[at(q)]).unwrap();
+    drop(arm);
+    let written = stub.written();
+    let sent = references(&written);
+    let servoj: Vec<_> = sent.iter().map(|package| package.servoj).collect();
+    let (before, after) = ([0.1, 300.0, 0.008], [0.05, 900.0, 0.008]);
+    assert_eq!(servoj, [before, before, after, after]);
 }

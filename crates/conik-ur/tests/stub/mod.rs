@@ -13,8 +13,12 @@ use std::thread::{self, JoinHandle};
 pub struct Written {
     pub counter: i32,
     pub command: i32,
+    /// Whether a fault is given as the reason of a stop.
+    pub by_fault: i32,
     pub q: [f64; 6],
     pub qd: [f64; 6],
+    /// Lookahead, gain, and time of `servoj`.
+    pub servoj: [f64; 3],
 }
 
 /// How the stub behaves.
@@ -35,6 +39,8 @@ pub struct Behaviour {
     pub program_starts_after: u32,
     /// How the outputs are from the beginning.
     pub from_start: Option<Change>,
+    /// Happens instead of the program's stop on command.
+    pub at_stop: Option<Change>,
     /// Changes the outputs from the given reference on.
     pub after: Option<(i32, Change)>,
 }
@@ -50,6 +56,7 @@ impl Default for Behaviour {
             streams: false,
             program_starts_after: 0,
             from_start: None,
+            at_stop: None,
             after: None,
         }
     }
@@ -86,6 +93,10 @@ pub enum LinkEnd {
     Silent,
     /// It sends what is no package.
     Garbage,
+    /// A package of outputs lacks its last byte, and nothing follows.
+    Short,
+    /// It resets the connection once more was written to it.
+    Reset,
 }
 
 pub struct Stub {
@@ -124,8 +135,8 @@ impl Stub {
     }
 }
 
-/// The session number in the program that comes in.
-fn read_session(mut stream: TcpStream) -> i32 {
+/// The session number in the program that comes in; none in the one that clears the latch.
+fn read_session(mut stream: TcpStream) -> Option<i32> {
     let mut text = String::new();
     let mut buffer = [0; 512];
     while !text.ends_with("\nend\n") {
@@ -133,14 +144,22 @@ fn read_session(mut stream: TcpStream) -> i32 {
         assert!(size > 0, "the program has no end");
         text.push_str(std::str::from_utf8(&buffer[..size]).unwrap());
     }
+    let clears = "def conik_rearm():\n  write_output_integer_register(24, 0)\nend\n";
+    if text == clears {
+        return None;
+    }
     let line = text
         .lines()
         .find(|line| line.contains("session ="))
         .unwrap();
-    line.split('=').nth(1).unwrap().trim().parse().unwrap()
+    Some(line.split('=').nth(1).unwrap().trim().parse().unwrap())
 }
 
-fn serve(behaviour: &Behaviour, listener: &TcpListener, sessions: &Receiver<i32>) -> Vec<Written> {
+fn serve(
+    behaviour: &Behaviour,
+    listener: &TcpListener,
+    sessions: &Receiver<Option<i32>>,
+) -> Vec<Written> {
     let (mut stream, _) = listener.accept().unwrap();
     stream.set_nodelay(true).unwrap();
     let mut written = Vec::new();
@@ -180,7 +199,7 @@ fn serve(behaviour: &Behaviour, listener: &TcpListener, sessions: &Receiver<i32>
                 .concat(),
             )),
             b'I' => {
-                let types = format!("INT32,INT32{}", ",DOUBLE".repeat(12));
+                let types = format!("INT32,INT32,INT32{}", ",DOUBLE".repeat(15));
                 let other = behaviour.input_types.clone();
                 let other = other.filter(|(times, _)| refused < *times);
                 refused += 1;
@@ -200,6 +219,22 @@ fn serve(behaviour: &Behaviour, listener: &TcpListener, sessions: &Receiver<i32>
                     LinkEnd::Closed => return written,
                     LinkEnd::Silent => {}
                     LinkEnd::Garbage => replies.push((b'?', vec![0; 5])),
+                    LinkEnd::Short => {
+                        push_outputs(&mut replies, behaviour, &mut outputs);
+                        for (_, payload) in &mut replies {
+                            payload.pop();
+                        }
+                        outputs.link = LinkEnd::Silent;
+                    }
+                    LinkEnd::Reset => {
+                        push_outputs(&mut replies, behaviour, &mut outputs);
+                        for (kind, payload) in replies {
+                            send(&mut stream, behaviour, kind, &payload).unwrap();
+                        }
+                        // Closing with bytes unread resets.
+                        let _ = stream.peek(&mut [0]);
+                        return written;
+                    }
                 }
             }
             other => panic!("the driver sent a package of type {other}"),
@@ -210,14 +245,22 @@ fn serve(behaviour: &Behaviour, listener: &TcpListener, sessions: &Receiver<i32>
             }
         }
         if kind == b'S' && behaviour.streams {
-            stream_outputs(&mut stream, behaviour, &mut outputs);
+            stream_outputs(&mut stream, behaviour, &mut outputs, sessions);
         }
     }
     written
 }
 
-fn stream_outputs(stream: &mut TcpStream, behaviour: &Behaviour, outputs: &mut Outputs) {
+fn stream_outputs(
+    stream: &mut TcpStream,
+    behaviour: &Behaviour,
+    outputs: &mut Outputs,
+    programs: &Receiver<Option<i32>>,
+) {
     loop {
+        if let Ok(None) = programs.try_recv() {
+            outputs.phase = 0;
+        }
         thread::sleep(std::time::Duration::from_millis(1));
         let mut packages = Vec::new();
         push_outputs(&mut packages, behaviour, outputs);
@@ -230,8 +273,13 @@ fn stream_outputs(stream: &mut TcpStream, behaviour: &Behaviour, outputs: &mut O
 }
 
 /// The servo program's share in the outputs.
-fn react(outputs: &mut Outputs, behaviour: &Behaviour, inputs: &Written, sessions: &Receiver<i32>) {
-    if let Ok(session) = sessions.try_recv() {
+fn react(
+    outputs: &mut Outputs,
+    behaviour: &Behaviour,
+    inputs: &Written,
+    sessions: &Receiver<Option<i32>>,
+) {
+    if let Ok(Some(session)) = sessions.try_recv() {
         outputs.program = Some((session, behaviour.program_starts_after));
     }
     if let Some((_, left)) = &mut outputs.program
@@ -246,8 +294,9 @@ fn react(outputs: &mut Outputs, behaviour: &Behaviour, inputs: &Written, session
     }
     match inputs.command {
         1 => outputs.phase = 2,
+        2 if behaviour.at_stop.is_some() => behaviour.at_stop.iter().for_each(|it| it(outputs)),
         2 => {
-            outputs.phase = 3;
+            outputs.phase = if inputs.by_fault == 1 { 6 } else { 3 };
             outputs.runtime_state = 1;
             outputs.robot_bits = 1;
         }
@@ -284,20 +333,18 @@ fn push_outputs(replies: &mut Vec<(u8, Vec<u8>)>, behaviour: &Behaviour, outputs
 }
 
 fn read_inputs(payload: &[u8]) -> Written {
-    assert_eq!(payload.len(), 1 + 8 + 96, "size of an input package");
+    assert_eq!(payload.len(), 1 + 12 + 120, "size of an input package");
     assert_eq!(payload[0], 1, "recipe");
     let int = |at: usize| i32::from_be_bytes(payload[at..at + 4].try_into().unwrap());
-    let six = |from: usize| {
-        std::array::from_fn(|joint| {
-            let at = from + 8 * joint;
-            f64::from_be_bytes(payload[at..at + 8].try_into().unwrap())
-        })
-    };
+    let double = |at: usize| f64::from_be_bytes(payload[at..at + 8].try_into().unwrap());
+    let six = |from: usize| std::array::from_fn(|joint| double(from + 8 * joint));
     Written {
         counter: int(1),
         command: int(5),
-        q: six(9),
-        qd: six(57),
+        by_fault: int(9),
+        q: six(13),
+        qd: six(61),
+        servoj: [double(109), double(117), double(125)],
     }
 }
 
