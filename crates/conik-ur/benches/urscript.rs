@@ -55,8 +55,6 @@ fn main() {
     let text = ServoProgram {
         session: 1,
         cycle_s: 0.002,
-        lookahead_s: 0.1,
-        gain: 300.0,
         extrapolated_cycles: 20,
         stop_deceleration: 4.0,
         watchdog_hz: 10.0,
@@ -83,8 +81,12 @@ fn main() {
 fn times(program: &Program, every: usize) -> String {
     let mut machine = Machine::new(program);
     let mut registers = Registers {
-        // Lookahead and gain too, wherever the program reads them.
-        floats: std::array::from_fn(|register| if register < 36 { 0.1 } else { 150.0 }),
+        // Besides joints: lookahead, gain, and the time of `servoj`.
+        floats: std::array::from_fn(|register| match register {
+            37 => 300.0,
+            38 => 0.002,
+            _ => 0.1,
+        }),
         integers: [0.0; 48],
         output: 0.0,
     };
