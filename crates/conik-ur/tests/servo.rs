@@ -5,6 +5,7 @@ use conik::JointVec;
 use conik_sim::arm::{Arm, ArmError, Reference};
 use conik_ur::driver::{UrArm, UrConfig};
 use conik_ur::emulator::{Emulator, EmulatorConfig, Injection, Pace, Series};
+use conik_ur::model::ArmFacts;
 use conik_ur::servoj::Servoj;
 use std::time::Duration;
 
@@ -92,7 +93,7 @@ fn a_ramp_that_the_arm_cannot_follow_makes_a_protective_stop_and_one_that_it_can
     for series in [Series::Cb3, Series::E] {
         let emulator = emulator(series);
         let mut arm = UrArm::new(UrConfig {
-            speed_limit: [10.0; 6],
+            speed_limit: Some([10.0; 6]),
             position_limit: [100.0; 6],
             ..emulator.driver_config()
         });
@@ -104,7 +105,7 @@ fn a_ramp_that_the_arm_cannot_follow_makes_a_protective_stop_and_one_that_it_can
 
         let emulator = self::emulator(series);
         let mut arm = UrArm::new(UrConfig {
-            speed_limit: [10.0; 6],
+            speed_limit: Some([10.0; 6]),
             position_limit: [100.0; 6],
             ..emulator.driver_config()
         });
@@ -144,5 +145,27 @@ fn wait_for_cycles(emulator: &Emulator, cycles: u64) {
     let from = emulator.cycles();
     while emulator.cycles() < from + cycles {
         std::thread::sleep(Duration::from_millis(1));
+    }
+}
+
+/// The limits that the maker publishes for the arm that the dashboard names, not those of another.
+#[test]
+fn an_arm_is_driven_within_the_speed_limits_of_its_own_model() {
+    for (name, passes) in [("UR5e", true), ("UR10e", false)] {
+        let arm = ArmFacts::ALL.iter().find(|arm| arm.name() == name).unwrap();
+        let emulator = Emulator::start(EmulatorConfig {
+            pace: Pace::Lockstep,
+            ..EmulatorConfig::of(arm, Q0.into())
+        })
+        .unwrap();
+        let mut driven = UrArm::new(emulator.driver_config());
+        driven.start(500.0).unwrap();
+        let ramped = ramp(&mut driven, &emulator, 2.5, 0.8);
+        assert_eq!(ramped.is_ok(), passes, "{name}: {ramped:?}");
+        if let Err(fault) = ramped {
+            assert_eq!(fault.name, "reference-refused");
+            assert!(fault.detail.contains("2.094395 rad/s"), "{fault}");
+        }
+        driven.stop().unwrap();
     }
 }

@@ -5,7 +5,7 @@ use crate::program::Pose;
 use crate::registers::{JOINTS, RegisterBase};
 use crate::servoj::Servoj;
 use conik_sim::scenario::{UrModel, UrSeries, UrSettings};
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::TAU;
 use std::net::IpAddr;
 use std::time::Duration;
 
@@ -76,8 +76,9 @@ pub struct UrConfig {
     /// Check everything, send nothing: no register is claimed, no program sent, no reference
     /// written.
     pub dry_run: bool,
-    /// Speed that no reference may ask a joint to exceed [rad/s].
-    pub speed_limit: [f64; JOINTS],
+    /// Speed that no reference may ask a joint to exceed [rad/s]; `None`: what the maker says of the
+    /// arm, or π where nobody says which one it is.
+    pub speed_limit: Option<[f64; JOINTS]>,
     /// Acceleration that no two steps from reference to reference may ask of a joint [rad/s²].
     /// `None`: from one reference to the next its speed may change by [`SPEED_CHANGE_ALLOWED`] of
     /// its speed limit, which lets the jumps of a first-order control law pass.
@@ -128,7 +129,7 @@ impl UrConfig {
             model: None,
             robot: None,
             dry_run: false,
-            speed_limit: [PI; JOINTS],
+            speed_limit: None,
             acceleration_limit: None,
             position_limit: [TAU; JOINTS],
             first_reference_tolerance: 1e-3,
@@ -159,7 +160,7 @@ impl UrConfig {
             self.tcp = Some(Pose([x, y, z, rx, ry, rz]));
         }
         self.position_limit = six(&settings.most_position_rad).unwrap_or(self.position_limit);
-        self.speed_limit = six(&settings.most_speed_rad_per_s).unwrap_or(self.speed_limit);
+        self.speed_limit = six(&settings.most_speed_rad_per_s).or(self.speed_limit);
         self.acceleration_limit =
             six(&settings.most_acceleration_rad_per_s2).or(self.acceleration_limit);
     }

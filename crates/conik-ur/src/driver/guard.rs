@@ -42,13 +42,14 @@ struct Previous {
 }
 
 impl Guard {
-    pub(super) fn new(config: &UrConfig, period_s: f64) -> Self {
+    /// Checks with these speed limits [rad/s] and the other limits of `config`.
+    pub(super) fn new(config: &UrConfig, speed_limit: [f64; JOINTS], period_s: f64) -> Self {
         Self {
             period_s,
-            speed_limit: config.speed_limit,
+            speed_limit,
             acceleration_limit: config.acceleration_limit.unwrap_or_else(|| {
                 let change = |speed: f64| SPEED_CHANGE_ALLOWED * speed / period_s;
-                config.speed_limit.map(change)
+                speed_limit.map(change)
             }),
             position_limit: config.position_limit,
             first_tolerance: config.first_reference_tolerance,
@@ -192,7 +193,7 @@ mod tests {
     const PERIOD: f64 = 0.008;
 
     fn guard() -> Guard {
-        Guard::new(&UrConfig::new("arm"), PERIOD)
+        Guard::new(&UrConfig::new("arm"), [PI; JOINTS], PERIOD)
     }
 
     fn reference(q: [f64; 6]) -> Reference {
@@ -234,7 +235,7 @@ mod tests {
             ..UrConfig::new("arm")
         };
         let start = [0.0, -1.5, 1.2, 6.0, -6.0, 0.0];
-        let mut guard = Guard::new(&config, PERIOD);
+        let mut guard = Guard::new(&config, [PI; JOINTS], PERIOD);
         let mut q = start;
         let mut speed = 0.0;
         guard.check(&reference(q), &q).unwrap();

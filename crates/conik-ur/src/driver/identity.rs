@@ -4,8 +4,9 @@
 use super::config::UrConfig;
 use super::dashboard::Dashboard;
 use super::fault;
+use crate::model::ArmFacts;
 use conik_sim::arm::ArmError;
-use conik_sim::scenario::{Choice, UrModel};
+use conik_sim::scenario::{Choice, UrModel, UrSeries};
 
 /// What the dashboard says of the controller.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -62,12 +63,12 @@ impl Identity {
     pub(super) fn ask_and_check(
         config: &UrConfig,
         say: &mut dyn FnMut(&str),
-    ) -> Result<(), ArmError> {
+    ) -> Result<Self, ArmError> {
         let identity = match Self::ask(config) {
             Ok(identity) => identity,
             Err(fault) => {
                 say(&not_asked(&fault));
-                return Ok(());
+                return Ok(Self::default());
             }
         };
         identity.check(config)?;
@@ -78,7 +79,14 @@ impl Identity {
                 wanted.name().to_ascii_uppercase()
             ));
         }
-        Ok(())
+        Ok(identity)
+    }
+
+    /// What is known of the arm: of the one that the controller names or else of the one that it is
+    /// said to be.
+    pub(super) fn arm(&self, config: &UrConfig, series: UrSeries) -> Option<&'static ArmFacts> {
+        let named = self.model.as_deref().and_then(UrModel::in_name);
+        ArmFacts::of(named.or(config.model).or(config.robot)?, series)
     }
 }
 

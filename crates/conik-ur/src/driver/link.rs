@@ -93,7 +93,9 @@ impl Link {
         let mut program = plan::program(config, rate_hz)?;
         program.check().map_err(|error| bad_setting(&error))?;
         // Before packages come: none waits meanwhile.
-        Identity::ask_and_check(config, say)?;
+        let identity = Identity::ask_and_check(config, say)?;
+        let arm = identity.arm(config, plan::series_of(version));
+        let speed_limit = plan::speed_limit(config, arm, say);
 
         let status = subscribe(
             &mut session,
@@ -116,7 +118,7 @@ impl Link {
         let mut link = Self {
             session,
             program,
-            guard: Guard::new(config, 1.0 / rate_hz),
+            guard: Guard::new(config, speed_limit, 1.0 / rate_hz),
             status,
             status_came: Instant::now(),
             pace,

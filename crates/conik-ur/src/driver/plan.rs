@@ -2,12 +2,14 @@
 
 use super::config::UrConfig;
 use super::{fault, rearm};
+use crate::model::ArmFacts;
 use crate::program::ServoProgram;
-use crate::registers;
+use crate::registers::{self, JOINTS};
 use crate::status::{Status, runtime_state};
 use crate::wire::ControllerVersion;
 use conik_sim::arm::ArmError;
 use conik_sim::scenario::{Choice, UrSeries};
+use std::f64::consts::PI;
 use std::time::{SystemTime, UNIX_EPOCH};
 
 /// The last version number of the CB3 series.
@@ -25,13 +27,38 @@ pub(super) fn series(version: ControllerVersion) -> &'static str {
     }
 }
 
-/// Whether the controller is of the series that is asked for.
-pub(super) fn check_series(config: &UrConfig, version: ControllerVersion) -> Result<(), ArmError> {
-    let found = if version.major <= CB3_MAJOR {
+/// The series that a software version belongs to.
+pub(super) fn series_of(version: ControllerVersion) -> UrSeries {
+    if version.major <= CB3_MAJOR {
         UrSeries::Cb3
     } else {
         UrSeries::ESeries
-    };
+    }
+}
+
+/// The speed limits of the joints [rad/s].
+pub(super) fn speed_limit(
+    config: &UrConfig,
+    arm: Option<&ArmFacts>,
+    say: &mut dyn FnMut(&str),
+) -> [f64; JOINTS] {
+    config.speed_limit.unwrap_or_else(|| {
+        arm.map_or_else(
+            || {
+                say(
+                    "no speed limits of this arm are known: 180°/s is taken for every joint; \
+                     `most_speed_deg_per_s` in the scenario's [ur] says otherwise",
+                );
+                [PI; JOINTS]
+            },
+            ArmFacts::most_speed,
+        )
+    })
+}
+
+/// Whether the controller is of the series that is asked for.
+pub(super) fn check_series(config: &UrConfig, version: ControllerVersion) -> Result<(), ArmError> {
+    let found = series_of(version);
     match config.series {
         Some(wanted) if wanted != found => {
             let detail = format!(

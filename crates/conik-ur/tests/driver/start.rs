@@ -162,7 +162,7 @@ fn the_settings_of_a_scenario_are_taken_over() {
     assert_eq!(config.payload_kg, Some(1.5));
     assert_eq!(config.tcp.unwrap().0, [0.0, 0.0, 0.12, 0.0, 0.0, 0.0]);
     assert_eq!(config.position_limit, [3.0; 6]);
-    assert_eq!(config.speed_limit, [1.0, 2.0, 3.0, 1.0, 2.0, 3.0]);
+    assert_eq!(config.speed_limit, Some([1.0, 2.0, 3.0, 1.0, 2.0, 3.0]));
     assert_eq!(config.acceleration_limit, Some([20.0; 6]));
 }
 
@@ -205,7 +205,7 @@ fn the_arms_model_and_remote_control_are_checked_at_every_start() {
         (model("UR5"), ur10, Some("wrong-arm"), ""),
         (model("UR10"), |_| {}, None, ""),
         (model(NOT_KNOWN), ur5, None, "make sure that it is a UR5"),
-        (model(NOT_KNOWN), |_| {}, None, ""),
+        (model(NOT_KNOWN), |_| {}, None, "no speed limits"),
         (remote("false"), |_| {}, Some("not-in-remote-control"), ""),
         // A CB3 does not know the question.
         (remote(NOT_KNOWN), |_| {}, None, ""),
