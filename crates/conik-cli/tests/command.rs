@@ -12,5 +12,6 @@ mod command {
     mod process;
     mod run_folder;
     mod small_commands;
+    mod strangers;
     mod trouble;
 }

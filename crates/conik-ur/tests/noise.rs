@@ -3,7 +3,6 @@
 //!
 //! `CONIK_NOISE_PACKAGES=10000000 cargo test -p conik-ur --release --test noise`
 
-#[path = "noise/mod.rs"]
 mod generator;
 
 use conik::JointVec;

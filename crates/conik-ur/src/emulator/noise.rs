@@ -13,7 +13,7 @@ use conik::JointVec;
 use std::collections::BTreeSet;
 use std::sync::{Condvar, Mutex};
 
-#[path = "../../tests/noise/mod.rs"]
+#[path = "../../tests/generator/mod.rs"]
 mod generator;
 
 use generator::{Noise, framed, good_for, packages_or};
