@@ -15,6 +15,11 @@ pub struct Realtime {
     pub memory: Result<(), String>,
 }
 
+/// Asks for the priority alone, for the thread that calls; or says why not.
+pub fn first_in_line() -> Result<(), String> {
+    system::first_in_line()
+}
+
 impl Realtime {
     /// Asks for both, for the thread that calls and the program that it belongs to.
     pub fn enter() -> Self {

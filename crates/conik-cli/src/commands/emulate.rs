@@ -29,6 +29,7 @@ pub fn emulate(arguments: &EmulateArguments) -> Result<ExitCode, Failure> {
     let config = EmulatorConfig {
         listen: arguments.listen,
         remote_control: !arguments.local,
+        real_time: true,
         ports: Ports::Real {
             offset: arguments.port_offset,
         },

@@ -19,6 +19,7 @@ const MOST_BEHIND: Duration = Duration::from_millis(10);
 
 /// Runs until the emulator ends.
 pub(super) fn run(shared: &Shared) {
+    shared.hurry();
     match shared.pace {
         Pace::WallTime => run_in_wall_time(shared),
         Pace::Lockstep => run_in_lockstep(shared),

@@ -97,6 +97,8 @@ pub struct EmulatorConfig {
     pub ports: Ports,
     /// How its clock goes.
     pub pace: Pace,
+    /// Whether the clock, and the threads that speak RTDE, ask the system to go before others.
+    pub real_time: bool,
     /// Largest acceleration of every joint [rad/s²]; the real figure is not published.
     pub acceleration_limit: f64,
     /// A larger step of `servoj`'s target from one call to the next makes a protective stop [rad].
@@ -130,6 +132,7 @@ impl EmulatorConfig {
             remote_control: true,
             ports: Ports::Free,
             pace: Pace::WallTime,
+            real_time: false,
             acceleration_limit: 40.0,
             largest_step: 0.1,
             overspeed_s: 0.25,

@@ -125,6 +125,7 @@ impl Emulator {
             version: config.series.version(),
             rate_hz: config.rate_hz,
             pace: config.pace,
+            real_time: config.real_time,
         });
         // From here on a failure drops the emulator, which ends the threads started so far.
         let mut emulator = Self {

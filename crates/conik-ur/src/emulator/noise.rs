@@ -35,6 +35,7 @@ fn shared() -> Shared {
         version: config.series.version(),
         rate_hz: config.rate_hz,
         pace: Pace::Lockstep,
+        real_time: false,
     }
 }
 

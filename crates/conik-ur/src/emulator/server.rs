@@ -113,6 +113,9 @@ fn spawn_connection(
         .name(format!("emulator connection {id}"))
         .spawn(move || {
             let _leaves = Leaves(&for_thread, id);
+            if service == Service::Rtde {
+                for_thread.hurry();
+            }
             serve_connection(&for_thread, id, &stream, service);
         });
     if let Err(error) = &thread {
@@ -149,7 +152,12 @@ fn serve_connection(shared: &Shared, id: u64, stream: &TcpStream, service: Servi
         let _finishes = Finishes(&outbox);
         let writer = thread::Builder::new()
             .name(format!("emulator writer {id}"))
-            .spawn_scoped(scope, || write_all_of(&outbox, stream, service));
+            .spawn_scoped(scope, || {
+                if service == Service::Rtde {
+                    shared.hurry();
+                }
+                write_all_of(&outbox, stream, service);
+            });
         if writer.is_ok() {
             read_all(stream, |bytes| inbound.take(shared, bytes));
         }
