@@ -15,6 +15,16 @@ pub fn paper(name: &str) -> PathBuf {
     repository().join(format!("scenarios/paper/{name}.toml"))
 }
 
+/// Example 2 for an arm with a clock of its own, by its name in this folder: it bridges half a
+/// second, so that a busy computer is no fault.
+pub fn patient(folder: &Path) -> PathBuf {
+    let text = fs::read_to_string(paper("example2")).unwrap();
+    let text = text.replacen("\n[[task]]", "\n[ur]\nbridge_s = 0.5\n\n[[task]]", 1);
+    let name = PathBuf::from("patient.toml");
+    fs::write(folder.join(&name), text).unwrap();
+    name
+}
+
 /// Where the scenarios stand.
 pub fn repository() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")

@@ -3,7 +3,9 @@
 use std::fs;
 use std::path::Path;
 
-use super::process::{Running, Said, conik, done, empty_folder, ended, paper, say, wait_for};
+use super::process::{
+    Running, Said, conik, done, empty_folder, ended, paper, patient, say, wait_for,
+};
 use super::run_folder::{Rows, summary};
 
 #[test]
@@ -118,7 +120,7 @@ fn settings_that_cannot_run_leave_an_earlier_run_alone() {
 fn interrupted(folder: &Path, signal: &str) -> Said {
     let line = format!(
         "run {} --duration-s 3600 --out .",
-        paper("example2").display()
+        patient(folder).display()
     );
     let run = Running::start(folder, &line);
     let log = folder.join("log.csv");
@@ -150,7 +152,7 @@ fn second_run_into_the_same_folder_is_refused() {
     let folder = empty_folder("two at once");
     let line = format!(
         "run {} --duration-s 3600 --out both",
-        paper("example2").display()
+        patient(&folder).display()
     );
     let first = Running::start(&folder, &line);
     let log = folder.join("both/log.csv");
@@ -173,7 +175,7 @@ fn killed_run_can_still_be_drawn() {
     let folder = empty_folder("killed");
     let line = format!(
         "run {} --duration-s 3600 --out .",
-        paper("example2").display()
+        patient(&folder).display()
     );
     let mut run = Running::start(&folder, &line);
     let log = folder.join("log.csv");
@@ -236,7 +238,7 @@ fn run_goes_on_when_nobody_reads_its_progress() {
     drop(reader);
     let line = format!(
         "run {} --duration-s 3600 --out .",
-        paper("example2").display()
+        patient(&folder).display()
     );
     let mut run = Running::of(
         conik(line.split_whitespace())
