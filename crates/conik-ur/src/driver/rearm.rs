@@ -43,7 +43,8 @@ pub(super) fn latched(status: &Status, acknowledged: Option<i32>) -> Option<ArmE
 /// Clears the latch in the controller, if it is set, and waits until that is so. The arm must be
 /// ready for a run in every other respect.
 pub(super) fn rearm(config: &UrConfig, say: &mut dyn FnMut(&str)) -> Result<(), ArmError> {
-    let mut session = Session::greet(connect(config, config.rtde_port)?)
+    let stream = connect(config, config.rtde_port)?;
+    let mut session = Session::greet_within(stream, config.link_timeout)
         .map_err(|error| fault::of_session(&error))?;
     plan::check_registers(config, session.version())?;
     session

@@ -30,7 +30,13 @@ pub fn recover(
         // Whether there is anything to free, RTDE tells.
         Err(fault) => {
             return match rearm::rearm(config, say) {
-                Err(other) if other.name == fault::CONNECT_FAILED => Err(fault),
+                // No controller at all: what the dashboard lacks says it as well.
+                Err(other)
+                    if [fault::CONNECT_FAILED, fault::LINK_LOST, fault::PROTOCOL]
+                        .contains(&other.name) =>
+                {
+                    Err(fault)
+                }
                 result => result,
             };
         }
