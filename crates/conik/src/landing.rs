@@ -44,6 +44,10 @@ const HALVINGS: usize = 2;
 /// takes more kinematics than another.
 const CAUTION: f64 = 0.125;
 
+/// The least of these shares: of a step so short, what the rows at q leave out is lost in rounding. Shares that
+/// fell on would only keep the arm from moving when it can again.
+const LEAST_CAUTION: f64 = 1e-9;
+
 /// Shares of the margin that a correction is content with where it cannot have all of it. Two bounds may
 /// be closer than two margins: those of sets that were never entered and contradict each other.
 const MARGIN_SHARES: [f64; 2] = [0.5, 0.0625];
@@ -180,7 +184,7 @@ impl Landing {
             if landed.halvings == HALVINGS {
                 self.give_in(approach, qd, &mut landed);
                 if landed.stood_still {
-                    self.caution = (self.caution * CAUTION).max(f64::MIN_POSITIVE);
+                    self.caution = (self.caution * CAUTION).max(LEAST_CAUTION);
                 }
                 self.aim(q, qd, target);
                 return landed;

@@ -4,8 +4,9 @@
 use std::f64::consts::PI;
 
 use conik::{
-    Axis, Border, Controller, Coordinate, Distance, FieldOfView, Interval, JointPosition, JointVec,
-    ModeRule, Position, Recursion, Robot, Settings, Stack, Task, TaskId,
+    Axis, Border, Controller, Coordinate, Distance, FieldOfView, Frame, Interval, JacobianMut,
+    JointPosition, JointVec, Kinematics, ModeRule, Position, Recursion, Robot, Settings, Stack,
+    Task, TaskId, Vec3,
 };
 use proptest::prelude::*;
 
@@ -152,4 +153,84 @@ proptest! {
             }
         }
     }
+}
+
+/// σ = q₀, with a Jacobian that points the wrong way: no correction helps.
+#[derive(Debug)]
+struct Misleading;
+
+impl Task for Misleading {
+    fn dimension(&self) -> usize {
+        1
+    }
+
+    fn value(&self, kinematics: &Kinematics, value: &mut [f64]) {
+        value[0] = kinematics.q()[0];
+    }
+
+    fn jacobian(&self, _: &Kinematics, jacobian: &mut JacobianMut<'_>) {
+        jacobian.row(0).fill(0.0);
+        jacobian.row(0)[0] = -1.0;
+    }
+
+    fn unit(&self) -> &'static str {
+        "rad"
+    }
+
+    fn check(&self, _: usize) -> Result<(), &'static str> {
+        Ok(())
+    }
+}
+
+#[test]
+fn an_arm_that_had_to_stand_still_for_long_soon_moves_again() {
+    let robot = Robot::builtin("ur5-paper").expect("built in");
+    let q0 = [0.0, -1.2, 1.4, -0.9, 1.0, 0.3];
+    let mut stack = Stack::without_position_limits(&robot);
+    let set = stack.set("set", Misleading, ..=q0[0]).expect("sound");
+    stack
+        .equality("joint", JointPosition::of(0), &[1.0], 1.0)
+        .expect("sound");
+    let mut controller = Controller::new(&robot, stack, Settings::at_rate(125.0)).expect("sound");
+    for _ in 0..500 {
+        let step = controller.step(&q0).expect("finite");
+        assert!(step.landed.stood_still, "{:?}", step.landed);
+    }
+    controller
+        .setpoints()
+        .set_interval(set, ..=2.0)
+        .expect("sound");
+    let mut q = JointVec::from(q0);
+    for _ in 0..31 {
+        q = controller.step(&q).expect("finite").q_ref;
+    }
+    let step = controller.step(&q).expect("finite");
+    assert_eq!(step.landed.cautious, None);
+    assert!(step.qd[0] > 0.5, "{}", step.qd[0]);
+}
+
+#[test]
+fn landing_does_not_undo_what_a_lower_level_takes_inward() {
+    let robot = Robot::builtin("ur5-paper").expect("built in");
+    let q0 = [0.0, -1.2, 1.4, -0.9, 1.0, 0.3];
+    let mut kinematics = Kinematics::new(&robot);
+    kinematics.update(&q0);
+    let height = kinematics.base_from(Frame::Tool).origin.z;
+    let mut row = [0.0; 6];
+    kinematics.point_row(Frame::Tool, Vec3::new(0.0, 0.0, 1.0), &mut row);
+    // The upper level presses the elbow, on its border, ever so slightly outward.
+    let desired = height + 1e-6 * row[2].signum();
+    let mut stack = Stack::without_position_limits(&robot);
+    let elbow = JointPosition::of(2);
+    stack.set("set", elbow, ..=q0[2] + 1e-7).expect("sound");
+    stack
+        .equality("height", Coordinate::of_tool(Axis::Z), &[desired], 1.0)
+        .expect("sound");
+    stack
+        .equality("elbow", elbow, &[q0[2] - 0.5], 1.0)
+        .expect("sound");
+    let mut controller = Controller::new(&robot, stack, Settings::at_rate(125.0)).expect("sound");
+    let step = controller.step(&q0).expect("finite");
+    assert!(!step.active.is_empty(), "the upper level alone would leave");
+    assert!((step.qd[2] + 0.5).abs() < 0.05, "{}", step.qd[2]);
 }

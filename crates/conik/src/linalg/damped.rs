@@ -21,7 +21,7 @@ use super::{COMMON, add_scaled, dot};
 use crate::real::sqrt;
 
 /// l₀: weight of the velocity itself [task's unit per rad].
-pub(super) const STRICT: f64 = 1e-3;
+pub(crate) const STRICT: f64 = 1e-3;
 
 /// ε: singular values below this are damped [task's unit per rad].
 pub(crate) const SINGULAR: f64 = 0.2;

@@ -9,6 +9,8 @@ mod row_space;
 mod symmetric;
 
 pub(crate) use damped::Damped;
+#[cfg(test)]
+pub(crate) use damped::STRICT;
 pub(crate) use dual_active_set::{Constraints, DualActiveSet, Solution, VIOLATION};
 pub(crate) use held_fit::{HeldFit, HeldProblem};
 pub(crate) use minimum_norm::MinimumNorm;

@@ -42,6 +42,8 @@ pub(crate) struct Nearest {
     /// Sides held in the last tick, and in this one so far.
     held_before: Held,
     held: Held,
+    /// Sides that bind a level but that the levels below it take inward.
+    taken_inward: Held,
     low_active: ActiveSet,
     /// Multiplier of each side at each level in the last tick: how hard the set pushes back.
     multipliers: Vec<f64>,
@@ -88,6 +90,7 @@ impl Nearest {
             program: LevelProgram::new(stack, settings),
             held_before: Held::default(),
             held: Held::default(),
+            taken_inward: Held::default(),
             low_active: ActiveSet::EMPTY,
             multipliers: alloc::vec![0.0; 2 * stack.len() * lower.len()],
             lost: alloc::vec![0; lower.len()],
@@ -142,9 +145,9 @@ impl Nearest {
         levels.filter(|(_, lost)| *lost > 0)
     }
 
-    /// Sides held by this tick's velocity.
+    /// Sides held by this tick's velocity: to land on their borders undoes nothing of it.
     pub(crate) fn held(&self) -> Held {
-        self.held
+        self.held.without(&self.taken_inward)
     }
 
     /// One level further down: fits the velocity to what the level asks. Where the program has no
@@ -268,8 +271,11 @@ impl Nearest {
 
     /// A side that was held and does not move inward stays held, whatever its multiplier.
     fn keep_what_does_not_leave(&mut self, barrier: &Barrier, velocity: &[f64]) {
+        self.taken_inward = Held::default();
         for (side, row, bound) in barrier.iter() {
-            if self.held_before.contains(side) && dot(row, velocity) <= bound + RELEASE {
+            if dot(row, velocity) > bound + RELEASE {
+                self.taken_inward.insert(side);
+            } else if self.held_before.contains(side) {
                 self.held.insert(side);
             }
         }
