@@ -47,7 +47,7 @@ pub(super) fn speed_limit(
             || {
                 say(
                     "no speed limits of this arm are known: 180°/s is taken for every joint; \
-                     `most_speed_deg_per_s` in the scenario's [ur] says otherwise",
+                     `most_speed_rad_per_s` in the scenario's [ur] says otherwise",
                 );
                 [PI; JOINTS]
             },
