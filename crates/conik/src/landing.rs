@@ -19,7 +19,8 @@
 //! still among them, and [`Landed::outside`] says by how much: the next sample is inside, or this
 //! tick has said that it is not.
 //!
-//! At most 9 kinematics a tick: three trials of one and two corrections each.
+//! At most 10 kinematics a tick: three trials of one and two corrections each, and one more where sets that
+//! cannot all be kept make the arm turn back from tick to tick.
 
 use alloc::vec::Vec;
 
@@ -29,6 +30,7 @@ use crate::evaluation::Evaluation;
 use crate::joints::JointVec;
 use crate::limits::Limits;
 use crate::linalg::{Constraints, DualActiveSet, Solution, add_scaled, clear, dot};
+use crate::restless::Restless;
 use crate::sides::{Held, Side, Sides, landing_rate};
 use crate::stack::Stack;
 use crate::task_id::TaskId;
@@ -96,6 +98,7 @@ pub(crate) struct Landing {
     best: Option<Best>,
     /// Share of the velocity that the next tick tries first.
     caution: f64,
+    restless: Restless,
     period: f64,
 }
 
@@ -136,6 +139,7 @@ impl Landing {
             horizon: f64::INFINITY,
             best: None,
             caution: 1.0,
+            restless: Restless::new(period),
             period,
         }
     }
@@ -167,6 +171,7 @@ impl Landing {
             match approach.worst_at_trial() {
                 None if is_shortened || is_last || approach.holds_margins() => {
                     self.caution = (2.0 * self.caution).min(1.0);
+                    self.restless.ease();
                     return landed;
                 }
                 None => {}
@@ -182,7 +187,7 @@ impl Landing {
                 continue;
             }
             if landed.halvings == HALVINGS {
-                self.give_in(approach, qd, &mut landed);
+                self.give_in(approach, q, qd, target, &mut landed);
                 if landed.stood_still {
                     self.caution = (self.caution * CAUTION).max(LEAST_CAUTION);
                 }
@@ -210,7 +215,14 @@ impl Landing {
     }
 
     /// No trial was inside: the arm stands still, unless that is worse than the best of them.
-    fn give_in(&self, approach: &mut Approach<'_>, qd: &mut JointVec, landed: &mut Landed) {
+    fn give_in(
+        &mut self,
+        approach: &mut Approach<'_>,
+        q: &[f64],
+        qd: &mut JointVec,
+        target: &mut JointVec,
+        landed: &mut Landed,
+    ) {
         let standing = worst(approach, |task| {
             approach.here.scalar(task) + self.period * approach.here.drift(task)
         });
@@ -218,12 +230,43 @@ impl Landing {
             (Some(standing), Some(best)) if best.outside.by < standing.by => {
                 *qd = best.qd;
                 landed.outside = Some(best.outside);
+                self.steady(approach, q, qd, target, standing, landed);
             }
             _ => {
                 landed.stood_still = true;
                 landed.outside = standing;
                 qd.fill(0.0);
             }
+        }
+    }
+
+    /// The velocity of the least violation may leap from one end of the joints' ranges to the other. Where
+    /// it turns back from tick to tick, the last velocity is changed by a share of the way to it alone
+    /// ([`Restless`]), and where that is worse than `standing` still, the arm stands still.
+    fn steady(
+        &mut self,
+        approach: &mut Approach<'_>,
+        q: &[f64],
+        qd: &mut JointVec,
+        target: &mut JointVec,
+        standing: Outside,
+        landed: &mut Landed,
+    ) {
+        let mut steadier = *qd;
+        if !self.restless.steady(&mut steadier, approach.before) {
+            return;
+        }
+        self.aim(q, &steadier, target);
+        landed.kinematics += 1;
+        approach.there.look_ahead(approach.stack, target);
+        let outside = approach.worst_at_trial();
+        if outside.is_none_or(|outside| outside.by <= standing.by) {
+            *qd = steadier;
+            landed.outside = outside;
+        } else {
+            qd.fill(0.0);
+            landed.outside = Some(standing);
+            landed.stood_still = true;
         }
     }
 

@@ -77,6 +77,7 @@ mod mode;
 mod monitor;
 mod real;
 mod reason;
+mod restless;
 mod robot;
 mod settings;
 mod sides;

@@ -248,7 +248,7 @@ fn assert_defined(rate: usize) {
             let context = format!("{}, {settings:?}: {run:?}", case.name);
             assert!(run.fastest <= PI * (1.0 + 1e-12), "{context}");
             assert!(run.most_pivots <= MAX_PIVOTS, "{context}");
-            assert!(run.most_kinematics <= 9, "{context}");
+            assert!(run.most_kinematics <= 10, "{context}");
             if settings.border == Border::Land {
                 assert!(run.dip <= 1e-12, "{context}");
             }

@@ -26,7 +26,8 @@ use crate::task_id::TaskId;
 ///
 /// [`step`](Self::step) does not allocate, lock, log or call the system, and its work is bounded:
 ///
-/// * border `Land` computes the kinematics of at most 9 configurations a tick, `Freeze` of one;
+/// * border `Land` computes the kinematics of at most 9 configurations a tick, 10 where sets that move cannot
+///   all be kept, `Freeze` of one;
 /// * all quadratic programs of a tick, those of rule `Cone` and those of `Land`, share
 ///   [`MAX_PIVOTS`] pivots;
 /// * rules `Paper` and `Border` compute at most 1 + Σₖ C(n, k) velocities, k = 0 … min(n, joints),
