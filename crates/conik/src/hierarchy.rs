@@ -114,8 +114,13 @@ impl Hierarchy {
     /// J⁺ σ̇_ref of the one level below the sets, if there is just one and it is projected: the velocity
     /// of every mode is then N of it. `None` before the first velocity of a tick.
     pub(crate) fn asked_of_one_level(&self) -> Option<&[f64]> {
-        let is_one = self.recursion == Recursion::Chiaverini && self.lower.len() == 1;
-        (is_one && self.asked_known[0]).then_some(&self.asked[..])
+        (self.is_one_projected_level() && self.asked_known[0]).then_some(&self.asked[..])
+    }
+
+    /// The first level below the sets is always an equality task, active in every mode.
+    #[inline]
+    fn is_one_projected_level(&self) -> bool {
+        self.recursion == Recursion::Chiaverini && self.lower.len() == 1
     }
 
     /// The lower levels that had lost directions in the last velocity, and how many.
@@ -167,8 +172,9 @@ impl Hierarchy {
         let frozen = self.above.rank();
         let frozen_rates = &self.frozen_rates[..frozen];
         let mut is_zero = frozen_rates.iter().all(|rate| *rate == 0.0);
-        if is_zero && let Some(asked) = self.asked_of_one_level() {
-            copy(velocity, asked);
+        if is_zero && self.is_one_projected_level() {
+            self.find_asked(stack, evaluation, 0);
+            copy(velocity, &self.asked);
             project_strictly(&self.above, velocity);
             return;
         }

@@ -60,11 +60,19 @@ impl Controller {
             }
             Rule::Nearest(nearest) => nearest.crossing(side),
         };
+        let is_frozen = matches!(self.rule, Rule::Search(_))
+            && self.borders.are_at_ease()
+            && self.stack.is_high_priority(task);
         Reason::Holds {
             task,
             is_upper,
             crossing: crossing_rate * self.period,
-            rate: self.inward_rate(side),
+            // What is frozen stands still.
+            rate: if is_frozen {
+                0.0
+            } else {
+                self.inward_rate(side)
+            },
         }
     }
 

@@ -164,7 +164,7 @@ impl Controller {
     /// `q = controller.step(&q)?.q_ref`.
     pub fn step(&mut self, q: &[f64]) -> Result<&Step, StepError> {
         self.check(q)?;
-        if self.there.is_at(q) {
+        if self.settings.border == Border::Land && self.there.is_at(q) {
             core::mem::swap(&mut self.here, &mut self.there);
         }
         self.here.update(&self.stack, q);
