@@ -273,36 +273,6 @@ fn a_program_that_is_not_emulated_is_refused_in_words_on_every_port() {
 }
 
 #[test]
-fn bad_packages_are_named_and_the_connection_stays() {
-    let emulator = emulator(125.0);
-    let mut client = RawClient::connect(&emulator);
-    client.send(&[0, 5, b'V', 0, 2]);
-    assert_eq!(client.package(), (b'V', vec![1]));
-    for (bytes, fault) in [
-        (&[0, 3, b'Z'][..], "unknown package type 90"),
-        (&[0, 4, b'V', 2], "too short"),
-        (&[0, 3, b'M'], "too short"),
-    ] {
-        client.send(bytes);
-        client.expect_text(fault);
-    }
-    let mut bad_frequency = vec![0, 20, b'O'];
-    bad_frequency.extend(f64::NAN.to_be_bytes());
-    bad_frequency.extend(b"timestamp");
-    for (bytes, fault) in [
-        (&[0, 3, b'I'][..], "empty"),
-        (&[0, 4, b'U', 9], "no input recipe 9"),
-        (&bad_frequency, "frequency NaN"),
-    ] {
-        client.send(bytes);
-        client.expect_text(fault);
-    }
-    client.claim_and_start();
-    client.send(&[0, 5, b'U', 1, 0]);
-    client.expect_text("too short");
-}
-
-#[test]
 fn a_nan_never_reaches_a_register() {
     let emulator = emulator(125.0);
     let mut client = RawClient::connect(&emulator);
@@ -319,18 +289,6 @@ fn a_nan_never_reaches_a_register() {
     client.request(b'S', &[]);
     assert_eq!(client.package(), (b'S', vec![1]));
     assert_eq!(client.package(), (b'U', [&[1][..], &[0; 8]].concat()));
-}
-
-#[test]
-fn lost_framing_ends_the_connection_and_nothing_else() {
-    let emulator = emulator(125.0);
-    let mut broken = RawClient::connect(&emulator);
-    broken.send(&[0, 2, 0]);
-    let mut rest = Vec::new();
-    // The end of the stream or a reset: either way the connection is over.
-    let _ = broken.stream.read_to_end(&mut rest);
-    let mut arm = UrArm::new(emulator.driver_config());
-    arm.start(125.0).unwrap();
 }
 
 #[test]

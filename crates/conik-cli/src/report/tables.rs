@@ -205,8 +205,8 @@ fn tracking(run: &Run, summary: &Summary) -> String {
         ("Joint", false),
         ("Largest tracking error", true),
         ("Root mean square", true),
-        ("Largest, delay taken out", true),
-        ("Root mean square, delay taken out", true),
+        ("Largest, less the delay", true),
+        ("Root mean square, less the delay", true),
     ];
     let delay = tracking.delay_s.map_or(String::new(), |delay_s| {
         format!(
