@@ -31,7 +31,7 @@ fn the_page_tells_the_run_in_the_papers_order() {
         "Mode changes",
         "Step time and tracking",
         "The arm ran 104.2 ms behind its reference",
-        "Largest, delay taken out",
+        "Largest, less the delay",
         "Cycles of the arm",
         "2 cycles were missed, 0 repeated.",
         "Histogram",
