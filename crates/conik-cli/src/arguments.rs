@@ -81,6 +81,10 @@ pub struct RunArguments {
     /// No progress line and no summary; errors are printed all the same
     #[arg(long, short)]
     pub quiet: bool,
+    /// With `--robot HOST`: begin where the arm stands, whatever start the scenario has: to go on
+    /// after a stop
+    #[arg(long)]
+    pub from_here: bool,
     /// With `--robot HOST`: switch the arm on and release its brakes first, if need be
     #[arg(long, conflicts_with = "dry_run")]
     pub power_on: bool,
@@ -206,8 +210,8 @@ pub struct PreflightArguments {
 #[command(
     after_help = "A protective stop is unlocked after 5 s, and the arm is armed anew after a run that \
     did not end in order (killed, a fault, stopped at the pendant). Emergency stops, safeguard stops \
-    and safety faults are named and left to the person beside the arm. The next `conik run` starts \
-    where the arm stands. Exit status: 0 a run may start; 1 it may not; 2 bad usage."
+    and safety faults are named and left to the person beside the arm. The next `conik run` begins \
+    where the arm stands: with --from-here, unless that is the scenario's start. Exit status: 0 a run may start; 1 it may not; 2 bad usage."
 )]
 pub struct RecoverArguments {
     /// Host name or address of the controller

@@ -28,6 +28,8 @@ pub struct Experiment {
     pub movers: Vec<Mover>,
     /// Joint positions at the start [rad].
     pub q0: JointVec,
+    /// Whether the run begins where the arm stands, wherever that is.
+    pub from_here: bool,
     /// Index of the last tick: the run has one more tick than this.
     pub last_tick: u64,
 }
@@ -100,6 +102,7 @@ impl Experiment {
             waypoints,
             movers,
             q0: JointVec::from_slice(&scenario.robot.q0_rad)?,
+            from_here: false,
             last_tick: scenario.control.last_tick(),
             robot,
         })

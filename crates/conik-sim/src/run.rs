@@ -102,7 +102,7 @@ fn drive(
 ) -> Result<bool, ArmError> {
     let rate_hz = experiment.controller.settings().rate_hz;
     let present = arm.start(rate_hz)?;
-    let mut q = begin_at(&present, &experiment.q0)?;
+    let mut q = begin_at(&present, &experiment.q0, experiment.from_here)?;
     let columns = Columns::new(experiment.controller.stack());
     let mut last_active: Option<ActiveSet> = None;
     for tick in 0..=experiment.last_tick {
@@ -131,8 +131,9 @@ fn drive(
     Ok(true)
 }
 
-/// Where the run begins: in the arm's present pose, if that is the scenario's start.
-fn begin_at(present: &JointVec, q0: &JointVec) -> Result<JointVec, ArmError> {
+/// Where the run begins: in the arm's present pose, if that is the scenario's start or the run may begin
+/// anywhere.
+fn begin_at(present: &JointVec, q0: &JointVec, from_here: bool) -> Result<JointVec, ArmError> {
     if present.len() != q0.len() {
         return Err(ArmError::new(
             "wrong-arm",
@@ -145,13 +146,13 @@ fn begin_at(present: &JointVec, q0: &JointVec) -> Result<JointVec, ArmError> {
     }
     for (joint, (present, start)) in present.iter().zip(q0.iter()).enumerate() {
         let away = (present - start).abs();
-        if !(away <= START_TOLERANCE_RAD) {
+        if !(from_here || away <= START_TOLERANCE_RAD) {
             return Err(ArmError::new(
                 "start-away",
                 format!(
                     "joint {} of the arm is at {present:.4} rad, the scenario starts at \
                      {start:.4} rad: move the arm there first (at most {START_TOLERANCE_RAD} rad \
-                     away), or change the scenario's start",
+                     away), begin where it stands with --from-here, or change the scenario's start",
                     joint + 1
                 ),
             ));

@@ -16,7 +16,10 @@ pub fn recover(arguments: &RecoverArguments) -> Result<ExitCode, Failure> {
         .offset_ports(arguments.port_offset)
         .map_err(Failure::input)?;
     take_back(&config, arguments.power_on, &mut say).map_err(Failure::run)?;
-    super::print("a run may start, from where the arm stands\n")
+    super::print(
+        "a run may start, from where the arm stands: `conik run` with --from-here, unless that is the \
+         scenario's start\n",
+    )
 }
 
 /// Says a step before it is taken.

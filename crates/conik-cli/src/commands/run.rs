@@ -47,7 +47,8 @@ const INTERRUPTED: u8 = 130;
 pub fn run(arguments: &RunArguments) -> Result<ExitCode, Failure> {
     let mut scenario = Scenario::load(&arguments.scenario)?;
     arguments.overrides.apply(&mut scenario)?;
-    let experiment = Experiment::new(&scenario).map_err(Failure::input)?;
+    let mut experiment = Experiment::new(&scenario).map_err(Failure::input)?;
+    experiment.from_here = arguments.from_here;
     let explanations = Explanations::new(&arguments.explain, &experiment)?;
     let stop = stop_on_ctrl_c()?;
     let mut driven = arm(arguments, &scenario, &experiment)?;
@@ -162,6 +163,12 @@ fn arm(
 ) -> Result<Driven, Failure> {
     let rate_hz = scenario.control.rate_hz;
     let (arm, emulator): (Box<dyn Arm + Send>, _) = match arguments.robot.as_str() {
+        arm @ ("ideal" | "emulator") if arguments.from_here => {
+            return Err(Failure::input(format!(
+                "--from-here: the arm of --robot {arm} stands at the scenario's start; it is for \
+                 --robot HOST"
+            )));
+        }
         "ideal" if arguments.dry_run => {
             return Err(Failure::input(
                 "--dry-run: there is nothing to send to an ideal arm; it is for --robot HOST",

@@ -168,6 +168,11 @@ fn bad_option_is_named() {
         ("--recursion none", "--recursion: there is no `none`"),
         ("--robot 127.0.0.1 --port-offset 65535", "--port-offset"),
         ("--robot 127.0.0.1 --fast", "--fast"),
+        ("--from-here", "stands at the scenario's start"),
+        (
+            "--robot ideal --from-here",
+            "--from-here: the arm of --robot ideal",
+        ),
     ] {
         let said = ended(
             conik(["run"])
