@@ -81,8 +81,13 @@ pub(super) fn goes_on(before: Stamp, now: Stamp) -> Result<(), ArmError> {
 }
 
 fn clock_jump(before: Stamp, now: Stamp) -> ArmError {
+    let what = if now.timestamp > before.timestamp {
+        "it leapt ahead of this computer's clock"
+    } else {
+        "it was restarted or stood still"
+    };
     let detail = format!(
-        "the controller's clock went from {:.3} s to {:.3} s: it was restarted or stood still",
+        "the controller's clock went from {:.3} s to {:.3} s: {what}",
         before.timestamp, now.timestamp
     );
     ArmError::new(CLOCK_JUMP, detail)
