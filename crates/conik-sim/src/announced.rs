@@ -83,7 +83,7 @@ mod tests {
         let mut q = JointVec::from([-0.84, -2.76, -1.88, -1.57, -1.48, 0.0]);
         let mut kinematics = conik::Kinematics::new(&robot);
         kinematics.update(&q);
-        let tool = kinematics.base_from(Frame::Tool).origin;
+        let tool = kinematics.world_from(Frame::Tool).origin;
         let mut stack = Stack::new(&robot);
         let task = Distance::of_tool_to(tool + Vec3::new(0.15, 0.0, 0.0));
         let id = stack.set("ball", task, 0.1..).expect("sound");

@@ -41,20 +41,20 @@ pub(crate) fn limited_robot(config: &RobotConfig) -> Result<Robot, RobotError> {
         speed_limits_rad_per_s,
         acceleration_limits_rad_per_s2,
     } = &config.limits;
-    let mut joints = model.joints().to_vec();
-    for (index, joint) in joints.iter_mut().enumerate() {
-        if let Some(limits) = position_limits_rad {
-            let pair = limits.get(index).copied().flatten();
-            joint.limits.position = pair.map(|[min, max]| (min, max));
+    model.with_limits(|index, joint| {
+        let mut limits = joint.limits;
+        if let Some(positions) = position_limits_rad {
+            let pair = positions.get(index).copied().flatten();
+            limits.position = pair.map(|[min, max]| (min, max));
         }
-        if let Some(limits) = speed_limits_rad_per_s {
-            joint.limits.speed = limits.get(index).copied();
+        if let Some(speeds) = speed_limits_rad_per_s {
+            limits.speed = speeds.get(index).copied();
         }
-        if let Some(limits) = acceleration_limits_rad_per_s2 {
-            joint.limits.acceleration = limits.get(index).copied();
+        if let Some(accelerations) = acceleration_limits_rad_per_s2 {
+            limits.acceleration = accelerations.get(index).copied();
         }
-    }
-    Robot::from_joints(model.name(), joints)
+        limits
+    })
 }
 
 #[cfg(test)]

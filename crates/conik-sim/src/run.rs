@@ -169,7 +169,7 @@ fn decide(
     feedback: &Feedback,
 ) -> Result<Record, ArmError> {
     let controller = &mut experiment.controller;
-    let tool = controller.kinematics_at(q).base_from(Frame::Tool).origin;
+    let tool = controller.kinematics_at(q).world_from(Frame::Tool).origin;
     let (mut waypoint, mut reached) = (0, None);
     if let Some((task, waypoints)) = &mut experiment.waypoints {
         reached = waypoints.advance(tool);

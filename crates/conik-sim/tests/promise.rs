@@ -128,7 +128,7 @@ fn crossing(speed: f64) -> Scenario {
     let experiment = Experiment::new(&scenario).expect("a sound scenario");
     let mut kinematics = conik::Kinematics::new(&experiment.robot);
     kinematics.update(&experiment.q0);
-    let tool = kinematics.base_from(conik::Frame::Tool).origin.to_array();
+    let tool = kinematics.world_from(conik::Frame::Tool).origin.to_array();
     scenario.tasks.truncate(1);
     scenario.tasks.push(TaskConfig {
         name: "position".to_owned(),

@@ -91,8 +91,10 @@ fn kinematics() {
         report(name, &configurations, |q| {
             kinematics.update(black_box(q));
             Position::of_tool().jacobian(&kinematics, &mut JacobianMut::new(&mut point, 6));
+            let motion = kinematics.motion(conik::Frame::Tool);
+            let z_axis = kinematics.world_from(conik::Frame::Tool).z_axis;
             for (row, direction) in axis.chunks_exact_mut(6).zip(UNIT) {
-                kinematics.axis_row(conik::Frame::Tool, direction.into(), row);
+                kinematics.axis_row(motion, z_axis, direction.into(), row);
             }
             black_box((&point, &axis));
         });

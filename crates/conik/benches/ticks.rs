@@ -30,7 +30,7 @@ fn main() {
         let tool = example
             .controller
             .kinematics_at(&example.q)
-            .base_from(conik::Frame::Tool)
+            .world_from(conik::Frame::Tool)
             .origin;
         example.waypoints.advance(tool);
         let target = example.waypoints.target().to_array();

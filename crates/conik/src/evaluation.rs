@@ -168,7 +168,7 @@ impl Evaluation {
             let is_moving = level.task().is_moving();
             self.is_any_drifting |= is_moving;
             self.drifts.of_mut(id).fill(0.0);
-            self.steepness[id.index()] = level.task().steepness(self.kinematics.reach());
+            self.steepness[id.index()] = level.task().steepness(&self.kinematics);
             if is_moving || level.interval().is_none() {
                 self.others.push(id);
             } else {

@@ -1,7 +1,7 @@
 //! Points, directions and poses in three dimensions.
 //!
-//! Poses are named by the two frames that they relate: `base_from_tool` takes coordinates in the
-//! tool frame to coordinates in the base frame.
+//! Poses are named by the two frames that they relate: `world_from_tool` takes coordinates in the
+//! tool frame to coordinates in the world.
 
 use core::ops::{Add, AddAssign, Mul, Neg, Sub};
 
@@ -148,6 +148,52 @@ impl Pose {
         z_axis: Vec3::new(0.0, 0.0, 1.0),
         origin: Vec3::ZERO,
     };
+
+    /// A frame turned as the outer one, with its origin at a point of it [m].
+    pub const fn at(origin: Vec3) -> Self {
+        Self {
+            origin,
+            ..Self::IDENTITY
+        }
+    }
+
+    /// Whether it is a motion: finite, and its axes of length 1, at right angles, right-handed, to 1e-9.
+    pub fn is_rigid(&self) -> bool {
+        let (x, y, z) = (self.x_axis, self.y_axis, self.z_axis);
+        let is_zero = |number: f64| number.abs() < 1e-9;
+        let lengths = [x, y, z].iter().all(|axis| is_zero(axis.dot(*axis) - 1.0));
+        let origin = self.origin.to_array();
+        lengths && is_zero((x.cross(y) - z).norm()) && origin.iter().all(|v| v.is_finite())
+    }
+
+    /// The outer frame in the inner one.
+    #[inline]
+    #[must_use]
+    pub fn inverse(&self) -> Self {
+        let (x, y, z) = (self.x_axis, self.y_axis, self.z_axis);
+        Self {
+            x_axis: Vec3::new(x.x, y.x, z.x),
+            y_axis: Vec3::new(x.y, y.y, z.y),
+            z_axis: Vec3::new(x.z, y.z, z.z),
+            origin: self.unrotate(-self.origin),
+        }
+    }
+
+    /// A direction given in the outer frame, in the inner one.
+    #[inline]
+    pub fn unrotate(&self, direction: Vec3) -> Vec3 {
+        Vec3::new(
+            self.x_axis.dot(direction),
+            self.y_axis.dot(direction),
+            self.z_axis.dot(direction),
+        )
+    }
+
+    /// A point given in the outer frame, in the inner one.
+    #[inline]
+    pub fn untransform(&self, point: Vec3) -> Vec3 {
+        self.unrotate(point - self.origin)
+    }
 
     /// A direction given in the inner frame, in the outer one.
     #[inline]

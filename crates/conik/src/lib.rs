@@ -46,8 +46,9 @@
 //!
 //! # Conventions
 //!
-//! Lengths are in metres, angles in radians, times in seconds. Everything is expressed in the base
-//! frame of the robot; poses are named by the frames they relate, `base_from_tool`.
+//! Lengths are in metres, angles in radians, times in seconds. Everything is expressed in the
+//! [world](Frame::World), which is the robot's base unless it was put elsewhere; poses are named by the
+//! frames they relate, `world_from_tool`.
 //!
 //! The crate needs no operating system: without the default feature `std` (and with `libm`) it is
 //! `no_std` and uses `alloc` at construction only.
@@ -96,7 +97,7 @@ pub use damping::Damping;
 pub use dependence::dependent_tasks;
 pub use geometry::{Pose, Vec3};
 pub use joints::{JointVec, MAX_JOINTS, TooManyJoints};
-pub use kinematics::{Frame, Kinematics};
+pub use kinematics::{Frame, Kinematics, Motion};
 pub use landing::{Landed, Outside};
 pub use limits::{Exceeded, Shortened};
 pub use mode::ModeOrder;
@@ -105,7 +106,10 @@ pub use monitor::{
     TaskHistory,
 };
 pub use reason::Reason;
-pub use robot::{DhRow, Joint, JointKind, JointLimits, Robot, RobotError};
+pub use robot::{
+    Body, DhConvention, DhRow, Joint, JointKind, JointLimits, Mimic, Robot, RobotBuilder,
+    RobotError,
+};
 pub use settings::{Border, ModeRule, Recursion, Settings};
 pub use stack::{BoundRates, Goal, Level, Setpoints, Stack, StackError, StackErrorReason};
 pub use step::Step;

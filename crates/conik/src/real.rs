@@ -14,6 +14,11 @@ mod source {
     pub fn sin_cos(x: f64) -> (f64, f64) {
         x.sin_cos()
     }
+
+    #[inline]
+    pub fn atan2(y: f64, x: f64) -> f64 {
+        y.atan2(x)
+    }
 }
 
 #[cfg(not(feature = "std"))]
@@ -25,6 +30,10 @@ mod source {
     pub fn sin_cos(x: f64) -> (f64, f64) {
         libm::sincos(x)
     }
+
+    pub fn atan2(y: f64, x: f64) -> f64 {
+        libm::atan2(y, x)
+    }
 }
 
-pub(crate) use source::{sin_cos, sqrt};
+pub(crate) use source::{atan2, sin_cos, sqrt};

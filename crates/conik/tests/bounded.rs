@@ -167,7 +167,7 @@ impl Task for Sum {
         "rad"
     }
 
-    fn check(&self, _dof: usize) -> Result<(), &'static str> {
+    fn check(&self, _robot: &Robot) -> Result<(), &'static str> {
         Ok(())
     }
 }

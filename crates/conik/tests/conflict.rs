@@ -163,7 +163,7 @@ impl Case {
         let robot = Robot::builtin("ur5-paper").expect("built in");
         let mut kinematics = Kinematics::new(&robot);
         kinematics.update(&self.q0);
-        let pose = *kinematics.base_from(Frame::Tool);
+        let pose = *kinematics.world_from(Frame::Tool);
         let mut stack = Stack::new(&robot);
         (self.fill)(&mut stack, pose.origin.to_array(), pose.z_axis.to_array())
             .expect("a sound stack");

@@ -131,7 +131,7 @@ fn a_point_moved_between_ticks_counts_where_the_last_tick_landed() {
             .task_mut::<Distance>(wall)
             .expect("a distance")
             .set_point(point);
-        let tool = controller.kinematics_at(&q).base_from(Frame::Tool).origin;
+        let tool = controller.kinematics_at(&q).world_from(Frame::Tool).origin;
         let expected = (tool - Vec3::from(point)).norm();
         for _ in 0..2 {
             let step = controller.step(&q).expect("finite");

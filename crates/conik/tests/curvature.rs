@@ -1,9 +1,13 @@
 //! Second derivatives of every task against central differences of its own Jacobian.
 
 use conik::{
-    Axis, Coordinate, DhRow, Distance, FieldOfView, Frame, JacobianMut, Joint, JointKind,
-    JointLimits, JointPosition, Kinematics, Position, Robot, Task,
+    Axis, Coordinate, Distance, FieldOfView, Frame, JacobianMut, JointPosition, Kinematics,
+    Position, Robot, Task,
 };
+
+mod robots;
+
+use robots::{mixed_arm, tree};
 
 const STEP: f64 = 1e-5;
 
@@ -16,6 +20,10 @@ fn tasks() -> Vec<Box<dyn Task>> {
         Box::new(Distance::between(Frame::Link(3), [0.1, 0.5, -0.2])),
         Box::new(FieldOfView::of_tool_along([1.0, -0.5, 0.3])),
         Box::new(FieldOfView::between(Frame::Link(5), [0.2, 0.1, -1.0])),
+        Box::new(Position::of_tool().relative_to(Frame::Link(3))),
+        Box::new(Coordinate::of(Frame::World, Axis::X).relative_to(Frame::Link(4))),
+        Box::new(Distance::of_tool_to([0.4, -0.3, 0.5]).relative_to(Frame::Link(1))),
+        Box::new(FieldOfView::of_tool_along([1.0, 0.3, -0.2]).relative_to(Frame::Link(3))),
         Box::new(JointPosition::of(2)),
     ]
 }
@@ -77,16 +85,10 @@ fn curvature_is_the_derivative_of_the_jacobian() {
 
 #[test]
 fn sliding_joints_turn_nothing() {
-    let joints = (0..6).map(|i| Joint {
-        name: format!("joint_{i}"),
-        kind: if i % 3 == 1 {
-            JointKind::Prismatic
-        } else {
-            JointKind::Revolute
-        },
-        dh: DhRow::new(0.2, 0.7 - 0.3 * f64::from(i), 0.1),
-        limits: JointLimits::default(),
-    });
-    let robot = Robot::from_joints("sliding", joints.collect()).expect("sound");
-    assert_second_derivatives(&robot, &[0.3, 0.25, 1.4, -0.6, 0.1, 0.2]);
+    assert_second_derivatives(&mixed_arm(), &[0.3, 0.25, 1.4, -0.6, 0.1, 0.2]);
+}
+
+#[test]
+fn of_a_tree_only_the_joints_between_two_frames_count() {
+    assert_second_derivatives(&tree(), &[0.3, -0.5, 0.4, 1.2, -0.9]);
 }

@@ -1,8 +1,8 @@
 //! Damping, task by task: none, fixed, by the smallest singular value, per singular direction.
 
 use conik::{
-    Border, Controller, Damping, Frame, JointVec, Kinematics, ModeRule, Position, Reason,
-    Recursion, Robot, Settings, Stack, StackErrorReason, Vec3,
+    Border, Controller, Damping, Frame, JointLimits, JointVec, Kinematics, ModeRule, Position,
+    Reason, Recursion, Robot, Settings, Stack, StackErrorReason, Vec3,
 };
 use nalgebra::{DVector, Matrix3xX};
 
@@ -21,7 +21,11 @@ fn position_jacobian(kinematics: &Kinematics) -> Matrix3xX<f64> {
         .enumerate()
     {
         let mut row = [0.0; 6];
-        kinematics.point_row(Frame::Tool, axis.into(), &mut row);
+        let (motion, tool) = (
+            kinematics.motion(Frame::Tool),
+            kinematics.world_from(Frame::Tool).origin,
+        );
+        kinematics.point_row(motion, tool, axis.into(), &mut row);
         jacobian.row_mut(i).copy_from_slice(&row);
     }
     jacobian
@@ -80,15 +84,12 @@ fn rules() -> impl Iterator<Item = Settings> {
 /// speed limits, so that nothing but damping slows it down.
 fn first_tick(settings: Settings, damping: Damping, way: Vec3) -> (JointVec, Vec<Reason>, Vec3) {
     let ur5 = Robot::builtin("ur5-paper").expect("built in");
-    let mut joints = ur5.joints().to_vec();
-    for joint in &mut joints {
-        joint.limits.speed = None;
-    }
-    let robot = Robot::from_joints("unlimited", joints).expect("sound");
+    let unlimited = ur5.with_limits(|_, _| JointLimits::default());
+    let robot = unlimited.expect("sound");
     let Stretched { q, .. } = stretched();
     let mut kinematics = Kinematics::new(&robot);
     kinematics.update(&q);
-    let here = kinematics.base_from(Frame::Tool).origin;
+    let here = kinematics.world_from(Frame::Tool).origin;
     let mut stack = Stack::new(&robot);
     let task = stack
         .equality(

@@ -1,10 +1,14 @@
 //! Every Jacobian against central differences of its own task's value, in one table.
 
 use conik::{
-    Axis, Coordinate, DhRow, Distance, FieldOfView, Frame, JacobianMut, Joint, JointKind,
-    JointLimits, JointPosition, Kinematics, Position, Robot, Task,
+    Axis, Coordinate, DhRow, Distance, FieldOfView, Frame, JacobianMut, JointPosition, Kinematics,
+    Position, Robot, Task,
 };
 use proptest::prelude::*;
+
+mod robots;
+
+use robots::{mixed_arm, tree};
 
 /// Half the difference of positions [rad or m] between the two values compared.
 const STEP: f64 = 1e-5;
@@ -37,36 +41,29 @@ fn tasks() -> Vec<(&'static str, Box<dyn Task>)> {
             "field of view of a link",
             Box::new(FieldOfView::between(Frame::Link(5), [0.0, 0.0, -7.0])),
         ),
+        (
+            "position seen from a link",
+            Box::new(Position::of_tool().relative_to(Frame::Link(2))),
+        ),
+        (
+            "position of the world seen from the tool",
+            Box::new(Position::of(Frame::World).relative_to(Frame::Tool)),
+        ),
+        (
+            "coordinate seen from a link",
+            Box::new(Coordinate::of(Frame::Link(5), Axis::Y).relative_to(Frame::Link(3))),
+        ),
+        (
+            "distance to a point of a link",
+            Box::new(Distance::of_tool_to([0.4, -0.3, 0.5]).relative_to(Frame::Link(1))),
+        ),
+        (
+            "field of view along a direction of a link",
+            Box::new(FieldOfView::of_tool_along([1.0, 0.3, -0.2]).relative_to(Frame::Link(3))),
+        ),
         ("first joint", Box::new(JointPosition::of(0))),
-        ("last joint", Box::new(JointPosition::of(5))),
+        ("another joint", Box::new(JointPosition::of(4))),
     ]
-}
-
-/// An arm with sliding joints among the turning ones, and twists that are no right angles.
-fn mixed_arm() -> Robot {
-    let joints = [
-        (JointKind::Revolute, [0.1, 0.7, 0.3, 0.2]),
-        (JointKind::Prismatic, [0.2, -1.1, 0.1, 0.4]),
-        (JointKind::Revolute, [-0.3, 0.3, 0.0, -0.5]),
-        (JointKind::Revolute, [0.0, 1.9, 0.2, 0.0]),
-        (JointKind::Prismatic, [0.05, 0.4, 0.0, 1.0]),
-        (JointKind::Revolute, [0.1, 0.0, 0.1, 0.3]),
-    ]
-    .into_iter()
-    .enumerate()
-    .map(|(i, (kind, [a_m, alpha_rad, d_m, theta_rad]))| Joint {
-        name: format!("joint_{i}"),
-        kind,
-        dh: DhRow {
-            a_m,
-            alpha_rad,
-            d_m,
-            theta_rad,
-        },
-        limits: JointLimits::default(),
-    })
-    .collect();
-    Robot::from_joints("mixed", joints).expect("sound joints")
 }
 
 fn assert_jacobians_are_derivatives(robot: &Robot, q: &[f64]) -> Result<(), TestCaseError> {
@@ -123,6 +120,13 @@ proptest! {
     }
 
     #[test]
+    fn jacobians_are_derivatives_on_a_tree_where_joints_follow_others(
+        q in prop::array::uniform5(-1.5..1.5_f64),
+    ) {
+        assert_jacobians_are_derivatives(&tree(), &q)?;
+    }
+
+    #[test]
     fn jacobians_are_derivatives_with_sliding_joints(q in prop::array::uniform6(-1.5..1.5_f64)) {
         assert_jacobians_are_derivatives(&mixed_arm(), &q)?;
     }
@@ -133,7 +137,7 @@ fn jacobians_are_finite_where_they_are_undefined() {
     let robot = Robot::builtin("ur5-paper").expect("built in");
     let mut kinematics = Kinematics::new(&robot);
     kinematics.update(&[0.3, -1.0, 0.7, 0.2, 0.5, 0.1]);
-    let tool = *kinematics.base_from(Frame::Tool);
+    let tool = *kinematics.world_from(Frame::Tool);
     let at_zero: [Box<dyn Task>; 2] = [
         Box::new(Distance::of_tool_to(tool.origin)),
         Box::new(FieldOfView::of_tool_along(tool.z_axis)),

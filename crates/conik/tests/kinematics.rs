@@ -31,7 +31,7 @@ fn tool_axis_agrees_with_a_thesis() {
     let mut kinematics = Kinematics::new(&ur5());
     for (q, axis) in cases {
         kinematics.update(&q);
-        assert_near(kinematics.base_from(Frame::Tool).z_axis, axis, 1e-4);
+        assert_near(kinematics.world_from(Frame::Tool).z_axis, axis, 1e-4);
     }
 }
 
@@ -60,7 +60,7 @@ fn position_jacobian_agrees_with_a_thesis() {
 fn tool_position_is_in_the_base_frame_of_the_paper() {
     let mut kinematics = Kinematics::new(&ur5());
     kinematics.update(&[0.3, -1.0, 0.7, 0.2, 0.5, 0.1]);
-    let tool = kinematics.base_from(Frame::Tool).origin;
+    let tool = kinematics.world_from(Frame::Tool).origin;
     assert_near(tool, [-0.5701, -0.3658, 0.4719], 1e-4);
 }
 
@@ -83,7 +83,7 @@ fn links_follow_the_product_of_their_homogeneous_matrices() {
     let mut kinematics = Kinematics::new(&robot);
     kinematics.update(&q);
     for (found, expected) in kinematics
-        .base_from(Frame::Tool)
+        .world_from(Frame::Tool)
         .to_matrix()
         .iter()
         .zip(product.to_matrix())

@@ -177,7 +177,7 @@ impl Task for Misleading {
         "rad"
     }
 
-    fn check(&self, _: usize) -> Result<(), &'static str> {
+    fn check(&self, _: &Robot) -> Result<(), &'static str> {
         Ok(())
     }
 }
@@ -215,9 +215,13 @@ fn landing_does_not_undo_what_a_lower_level_takes_inward() {
     let q0 = [0.0, -1.2, 1.4, -0.9, 1.0, 0.3];
     let mut kinematics = Kinematics::new(&robot);
     kinematics.update(&q0);
-    let height = kinematics.base_from(Frame::Tool).origin.z;
+    let height = kinematics.world_from(Frame::Tool).origin.z;
     let mut row = [0.0; 6];
-    kinematics.point_row(Frame::Tool, Vec3::new(0.0, 0.0, 1.0), &mut row);
+    let (motion, tool) = (
+        kinematics.motion(Frame::Tool),
+        kinematics.world_from(Frame::Tool).origin,
+    );
+    kinematics.point_row(motion, tool, Vec3::new(0.0, 0.0, 1.0), &mut row);
     // The upper level presses the elbow, on its border, ever so slightly outward.
     let desired = height + 1e-6 * row[2].signum();
     let mut stack = Stack::without_position_limits(&robot);

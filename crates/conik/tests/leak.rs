@@ -38,7 +38,7 @@ fn leak(q: [f64; 6], settings: Settings, is_equality: bool) -> (f64, f64) {
     let robot = Robot::builtin("ur5-paper").expect("built in");
     let mut kinematics = Kinematics::new(&robot);
     kinematics.update(&q);
-    let tool = kinematics.base_from(Frame::Tool).origin.to_array();
+    let tool = kinematics.world_from(Frame::Tool).origin.to_array();
     let above = Coordinate::of_tool(Axis::X);
     let mut stack = Stack::new(&robot);
     let target = tool.map(|v| 1.2 * v);

@@ -11,11 +11,7 @@ const START: [f64; 6] = [-0.84, -2.76, -1.88, -1.57, -1.48, 0.0];
 /// The UR5 with these limits at every joint.
 fn limited(limits: JointLimits) -> Robot {
     let ur5 = Robot::builtin("ur5-paper").expect("built in");
-    let mut joints = ur5.joints().to_vec();
-    for joint in &mut joints {
-        joint.limits = limits;
-    }
-    Robot::from_joints("limited", joints).expect("sound")
+    ur5.with_limits(|_, _| limits).expect("sound")
 }
 
 fn accelerating(limit: f64) -> Robot {
@@ -112,7 +108,7 @@ fn a_set_comes_before_an_acceleration_limit() {
         }
         let y = controller
             .kinematics_at(&q)
-            .base_from(conik::Frame::Tool)
+            .world_from(conik::Frame::Tool)
             .origin
             .y;
         let max = y + 1e-4;

@@ -4,8 +4,8 @@
 use std::f64::consts::PI;
 
 use conik::{
-    Controller, DhRow, Interval, JacobianMut, Joint, JointKind, JointLimits, JointPosition,
-    Kinematics, ModeRule, Position, Recursion, Robot, Settings, Stack, Step, Task, Vec3,
+    Controller, DhRow, Interval, JacobianMut, JointPosition, Kinematics, ModeRule, Position,
+    Recursion, Robot, Settings, Stack, Step, Task, Vec3,
 };
 
 /// σ = Σᵢ qᵢ: pulls at all joints alike.
@@ -29,23 +29,19 @@ impl Task for JointSum {
         "rad"
     }
 
-    fn check(&self, _: usize) -> Result<(), &'static str> {
+    fn check(&self, _: &Robot) -> Result<(), &'static str> {
         Ok(())
     }
 }
 
 /// A bent arm without limits.
 fn arm(joints: usize) -> Robot {
-    let joint = |i: usize| {
+    let row = |i: usize| {
         let twist = [0.5, -0.5, 0.0][i % 3] * PI;
-        Joint {
-            name: format!("joint_{i}"),
-            kind: JointKind::Revolute,
-            dh: DhRow::new(0.3, twist, 0.1),
-            limits: JointLimits::default(),
-        }
+        DhRow::new(0.3, twist, 0.1)
     };
-    Robot::from_joints("arm", (0..joints).map(joint).collect()).expect("finite rows")
+    let rows: Vec<DhRow> = (0..joints).map(row).collect();
+    Robot::from_dh("arm", &rows).expect("finite rows")
 }
 
 fn settings() -> impl Iterator<Item = Settings> {

@@ -32,7 +32,7 @@ fn find(controller: &Controller, name: &str) -> TaskId {
 fn tool(controller: &mut Controller, q: &[f64]) -> Vec3 {
     controller
         .kinematics_at(q)
-        .base_from(conik::Frame::Tool)
+        .world_from(conik::Frame::Tool)
         .origin
 }
 
@@ -226,7 +226,7 @@ fn a_turning_view_is_followed_to_first_order_and_kept_exactly() {
         let mut q = JointVec::from([0.3, -1.6, -1.6, -1.5, 1.5, 0.2]);
         let axis = controller
             .kinematics_at(&q)
-            .base_from(conik::Frame::Tool)
+            .world_from(conik::Frame::Tool)
             .z_axis;
         let turn = Vec3::new(0.1, -0.2, 0.15);
         for tick in 0..600 {
@@ -384,7 +384,7 @@ fn sets_that_pull_against_each_other_do_not_make_the_arm_bounce() {
         let turn = Vec3::from(std::array::from_fn(|_| uniform(-0.3, 0.3)));
         let mut q = JointVec::from(q0);
         let mut controller = controller(settings(rate_hz, recursion), |_| {});
-        let pose = *controller.kinematics_at(&q).base_from(conik::Frame::Tool);
+        let pose = *controller.kinematics_at(&q).world_from(conik::Frame::Tool);
         let goal = pose.origin + Vec3::from(std::array::from_fn(|_| uniform(-0.3, 0.3)));
         let mut controller = self::controller(settings(rate_hz, recursion), |stack| {
             for name in ["stays", "turns"] {

@@ -166,7 +166,7 @@ fn a_velocity_is_never_shortened_without_a_reason() {
         let robot = Robot::builtin("ur5-paper").expect("built in");
         let mut kinematics = conik::Kinematics::new(&robot);
         kinematics.update(&q0);
-        let here = kinematics.base_from(conik::Frame::Tool).origin;
+        let here = kinematics.world_from(conik::Frame::Tool).origin;
         let mut stack = Stack::new(&robot);
         // A tube much narrower than what the arm bends in a period of 1 s.
         for (name, axis, value) in [

@@ -50,7 +50,7 @@ pub fn find(scenario: &Scenario, experiment: &Experiment) -> Findings {
     out_of_reach(scenario, experiment, &mut doubts);
     no_equality(stack, &mut doubts);
     Findings {
-        tool_m: kinematics.base_from(Frame::Tool).origin.to_array(),
+        tool_m: kinematics.world_from(Frame::Tool).origin.to_array(),
         values: stack
             .iter()
             .zip(&values)
@@ -155,10 +155,7 @@ fn depends(stack: &Stack, dependent: &[TaskId], doubts: &mut Vec<String>) {
 
 fn out_of_reach(scenario: &Scenario, experiment: &Experiment, doubts: &mut Vec<String>) {
     // No point further from the base than all links laid end to end can be reached.
-    let mut reach = 0.0;
-    for joint in experiment.robot.joints() {
-        reach += joint.dh.a_m.hypot(joint.dh.d_m);
-    }
+    let reach = Kinematics::new(&experiment.robot).span() / 2.0;
     for (target, place) in targets(scenario) {
         if place.norm() > reach {
             doubts.push(format!(

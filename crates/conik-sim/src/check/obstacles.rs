@@ -58,7 +58,11 @@ fn keeps_away(task: &TaskConfig) -> Option<f64> {
 /// Greatest speed of the tool in a direction of length 1 [m/s], with every joint at its speed limit.
 fn fastest_along(direction: Vec3, experiment: &Experiment, kinematics: &Kinematics) -> f64 {
     let mut row = vec![0.0; experiment.robot.dof()];
-    kinematics.point_row(Frame::Tool, direction, &mut row);
+    let (motion, tool) = (
+        kinematics.motion(Frame::Tool),
+        kinematics.world_from(Frame::Tool).origin,
+    );
+    kinematics.point_row(motion, tool, direction, &mut row);
     let joints = experiment.robot.joints().iter();
     let limits = joints.map(|joint| joint.limits.speed.unwrap_or(f64::INFINITY));
     let moved = row.iter().zip(limits).filter(|(entry, _)| **entry != 0.0);

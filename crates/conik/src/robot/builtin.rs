@@ -3,7 +3,7 @@
 use alloc::string::ToString;
 use core::f64::consts::{FRAC_PI_2, PI};
 
-use super::{DhRow, Joint, JointKind, JointLimits, Robot, RobotError};
+use super::{DhConvention, DhRow, Joint, JointKind, JointLimits, Robot, RobotError};
 
 /// A built-in robot as a table.
 struct Table {
@@ -38,20 +38,19 @@ impl Robot {
             .ok_or_else(|| RobotError::Unknown {
                 name: name.to_string(),
             })?;
-        let joints = table
-            .joints
-            .iter()
-            .map(|&(joint, dh)| Joint {
+        let joints = table.joints.iter().map(|&(joint, dh)| {
+            let limits = JointLimits {
+                speed: Some(table.speed_limit),
+                ..JointLimits::default()
+            };
+            let joint = Joint {
                 name: joint.to_string(),
                 kind: JointKind::Revolute,
-                dh,
-                limits: JointLimits {
-                    speed: Some(table.speed_limit),
-                    ..JointLimits::default()
-                },
-            })
-            .collect();
-        Self::from_joints(table.name, joints)
+                limits,
+            };
+            (joint, dh)
+        });
+        Self::from_dh_joints(table.name, DhConvention::Standard, joints.collect())
     }
 
     /// Names that [`builtin`](Self::builtin) knows.

@@ -1,16 +1,13 @@
-//! Denavit-Hartenberg parameters, standard convention.
+//! Arms from Denavit-Hartenberg tables, standard and modified.
 
 use alloc::format;
 use alloc::vec::Vec;
 
-use super::{Joint, JointKind, JointLimits, Robot, RobotError};
+use super::placement::exact_sin_cos;
+use super::{Body, Joint, JointKind, JointLimits, Robot, RobotBuilder, RobotError};
 use crate::geometry::{Pose, Vec3};
-use crate::real::sin_cos;
 
-/// One row of a Denavit-Hartenberg table in the standard (distal) convention:
-/// turn by θ about z, move by d along z, move by a along the new x, turn by α about the new x.
-///
-/// A revolute joint adds its position to θ, a prismatic one to d.
+/// One row of a Denavit-Hartenberg table. A revolute joint adds its position to θ, a prismatic one to d.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct DhRow {
     /// Link length a [m].
@@ -23,6 +20,17 @@ pub struct DhRow {
     pub theta_rad: f64,
 }
 
+/// What the rows of a table mean.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum DhConvention {
+    /// Distal, Denavit and Hartenberg 1955, as in the paper: turn by θ about z, move by d along z, move
+    /// by a along the new x, turn by α about it. The joint acts about the z axis *before* these.
+    Standard,
+    /// Proximal, Craig 1986: turn by α about x, move by a along it, turn by θ about the new z, move by d
+    /// along it. The joint acts about that new z axis; a and α are often printed with index i − 1.
+    Modified,
+}
+
 impl DhRow {
     /// A row of a revolute joint whose angle at position 0 is 0, as in Table I of the paper.
     pub const fn new(a_m: f64, alpha_rad: f64, d_m: f64) -> Self {
@@ -33,116 +41,76 @@ impl DhRow {
             theta_rad: 0.0,
         }
     }
-}
 
-/// A row made ready for forward kinematics: the constant part of it computed once.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Link {
-    a: f64,
-    twist: Twist,
-    d: f64,
-    theta: f64,
-    kind: JointKind,
-}
-
-/// The turn by α about the new x. Most arms have none but those of a quarter, which cost little.
-#[derive(Clone, Copy, Debug)]
-enum Twist {
-    /// By ±π/2; the sign is sin α.
-    Quarter {
-        sign: f64,
-    },
-    /// By nothing.
-    None,
-    Any {
-        cos: f64,
-        sin: f64,
-    },
-}
-
-impl Twist {
-    fn new(alpha_rad: f64) -> Self {
-        /// A sine or cosine of less than this is that of a multiple of π/2 that was rounded.
-        const ROUNDED: f64 = 1e-15;
-        let (sin, cos) = sin_cos(alpha_rad);
-        if cos.abs() < ROUNDED {
-            Self::Quarter { sign: sin.signum() }
-        } else if sin.abs() < ROUNDED && cos > 0.0 {
-            Self::None
-        } else {
-            Self::Any { cos, sin }
-        }
+    fn is_finite(&self) -> bool {
+        [self.a_m, self.alpha_rad, self.d_m, self.theta_rad]
+            .iter()
+            .all(|number| number.is_finite())
     }
 
-    /// The y and the z axis after the turn.
-    #[inline]
-    fn turn(self, y_axis: Vec3, z_axis: Vec3) -> (Vec3, Vec3) {
-        if let Self::Quarter { sign } = self {
-            return (z_axis * sign, y_axis * -sign);
-        }
-        if let Self::Any { cos, sin } = self {
-            return (y_axis * cos + z_axis * sin, z_axis * cos - y_axis * sin);
-        }
-        (y_axis, z_axis)
-    }
-}
-
-impl Link {
-    pub(crate) fn new(joint: &Joint) -> Self {
-        Self {
-            a: joint.dh.a_m,
-            twist: Twist::new(joint.dh.alpha_rad),
-            d: joint.dh.d_m,
-            theta: joint.dh.theta_rad,
-            kind: joint.kind,
-        }
-    }
-
-    pub(crate) fn kind(&self) -> JointKind {
-        self.kind
-    }
-
-    /// θ [rad] at a position of the joint.
-    #[inline]
-    pub(crate) fn angle(&self, position: f64) -> f64 {
-        match self.kind {
-            JointKind::Revolute => self.theta + position,
-            JointKind::Prismatic => self.theta,
-        }
-    }
-
-    /// `base_from_link` given `base_from_previous`, the joint's position, and sine and cosine of its θ.
-    #[inline]
-    pub(crate) fn advance(&self, previous: &Pose, position: f64, (sin, cos): (f64, f64)) -> Pose {
-        let d = match self.kind {
-            JointKind::Revolute => self.d,
-            JointKind::Prismatic => self.d + position,
-        };
-        let x_axis = previous.x_axis * cos + previous.y_axis * sin;
-        let across: Vec3 = previous.y_axis * cos - previous.x_axis * sin;
-        let (y_axis, z_axis) = self.twist.turn(across, previous.z_axis);
+    /// Turn by α about x, move by a along it.
+    fn along_x(&self) -> Pose {
+        let (sin, cos) = exact_sin_cos(self.alpha_rad);
         Pose {
-            x_axis,
-            y_axis,
-            z_axis,
-            origin: previous.origin + previous.z_axis * d + x_axis * self.a,
+            y_axis: Vec3::new(0.0, cos, sin),
+            z_axis: Vec3::new(0.0, -sin, cos),
+            origin: Vec3::new(self.a_m, 0.0, 0.0),
+            ..Pose::IDENTITY
+        }
+    }
+
+    /// Turn by θ about z, move by d along it.
+    fn along_z(&self) -> Pose {
+        let (sin, cos) = exact_sin_cos(self.theta_rad);
+        Pose {
+            x_axis: Vec3::new(cos, sin, 0.0),
+            y_axis: Vec3::new(-sin, cos, 0.0),
+            origin: Vec3::new(0.0, 0.0, self.d_m),
+            ..Pose::IDENTITY
         }
     }
 }
 
 impl Robot {
-    /// An arm of revolute joints named `joint_1`, `joint_2`, ... from its table, without limits.
+    /// An arm of revolute joints named `joint_1`, `joint_2`, ... from its table in the standard
+    /// convention, without limits.
     pub fn from_dh(name: &str, rows: &[DhRow]) -> Result<Self, RobotError> {
-        let joints: Vec<Joint> = rows
-            .iter()
-            .enumerate()
-            .map(|(i, &dh)| Joint {
+        let joints = rows.iter().enumerate().map(|(i, &row)| {
+            let joint = Joint {
                 name: format!("joint_{}", i + 1),
                 kind: JointKind::Revolute,
-                dh,
                 limits: JointLimits::default(),
-            })
-            .collect();
-        Self::from_joints(name, joints)
+            };
+            (joint, row)
+        });
+        Self::from_dh_joints(name, DhConvention::Standard, joints.collect())
+    }
+
+    /// An arm from its joints, base to tool, each with its row.
+    ///
+    /// Its links are the frames of the convention: `link_0`, the base, to `link_n`, the tool.
+    pub fn from_dh_joints(
+        name: &str,
+        convention: DhConvention,
+        joints: Vec<(Joint, DhRow)>,
+    ) -> Result<Self, RobotError> {
+        let mut arm = RobotBuilder::new(name);
+        arm.link("link_0", Body::FIXED, Pose::IDENTITY)?;
+        let mut body = Body::FIXED;
+        for (i, (joint, row)) in joints.into_iter().enumerate() {
+            if !row.is_finite() {
+                return Err(RobotError::BadNumber {
+                    joint: joint.name,
+                    what: "its Denavit-Hartenberg parameters must be finite",
+                });
+            }
+            let (before, after) = match convention {
+                DhConvention::Standard => (row.along_z(), row.along_x()),
+                DhConvention::Modified => (row.along_x() * row.along_z(), Pose::IDENTITY),
+            };
+            body = arm.joint_between(body, before, joint, after)?;
+            arm.link(&format!("link_{}", i + 1), body, Pose::IDENTITY)?;
+        }
+        arm.build()
     }
 }

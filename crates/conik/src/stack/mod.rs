@@ -109,7 +109,7 @@ impl Level {
 /// between any two ticks.
 #[derive(Debug)]
 pub struct Stack {
-    dof: usize,
+    robot: Robot,
     levels: Vec<Level>,
     /// Number of sets above the first equality task.
     high_priority: usize,
@@ -151,7 +151,7 @@ impl Stack {
     /// An empty stack for a robot, even if its joints have position limits.
     pub fn without_position_limits(robot: &Robot) -> Self {
         Self {
-            dof: robot.dof(),
+            robot: robot.clone(),
             levels: Vec::new(),
             high_priority: 0,
             revision: 0,
@@ -232,7 +232,7 @@ impl Stack {
         goal: Result<Goal, StackErrorReason>,
     ) -> Result<TaskId, StackError> {
         let goal = check_dimension(task.dimension())
-            .and_then(|()| task.check(self.dof).map_err(StackErrorReason::Unfit))
+            .and_then(|()| task.check(&self.robot).map_err(StackErrorReason::Unfit))
             .and(goal)
             .and_then(|goal| {
                 if self.find(name).is_some() {
@@ -339,7 +339,7 @@ impl Stack {
 
     /// Number of joints of the robot that the stack is for.
     pub fn dof(&self) -> usize {
-        self.dof
+        self.robot.dof()
     }
 
     /// Whether a task stands above the first equality task.

@@ -1,10 +1,11 @@
 //! One coordinate of a frame's origin: σ = eᵀ p(q), a row of Eqs. (4) and (5).
 
-use super::{JacobianMut, Task, check_frame};
+use super::{JacobianMut, Seen, Task};
 use crate::geometry::Vec3;
 use crate::kinematics::{Frame, Kinematics};
+use crate::robot::Robot;
 
-/// An axis of the base frame.
+/// An axis of a frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Axis {
     /// x
@@ -25,10 +26,10 @@ impl Axis {
     }
 }
 
-/// One coordinate of the origin of a frame in the base frame [m].
+/// One coordinate of the origin of a frame in the world, or in another frame [m].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Coordinate {
-    frame: Frame,
+    seen: Seen,
     axis: Axis,
 }
 
@@ -40,7 +41,19 @@ impl Coordinate {
 
     /// A coordinate of any frame's position.
     pub const fn of(frame: Frame, axis: Axis) -> Self {
-        Self { frame, axis }
+        Self {
+            seen: Seen::in_world(frame),
+            axis,
+        }
+    }
+
+    /// The same, in another frame of the robot.
+    #[must_use]
+    pub const fn relative_to(self, frame: Frame) -> Self {
+        Self {
+            seen: self.seen.from(frame),
+            ..self
+        }
     }
 }
 
@@ -51,31 +64,39 @@ impl Task for Coordinate {
 
     #[inline]
     fn value(&self, kinematics: &Kinematics, value: &mut [f64]) {
-        value[0] = kinematics
-            .base_from(self.frame)
-            .origin
-            .dot(self.axis.direction());
+        value[0] = self.seen.origin(kinematics).dot(self.axis.direction());
     }
 
     #[inline]
     fn jacobian(&self, kinematics: &Kinematics, jacobian: &mut JacobianMut<'_>) {
-        kinematics.point_row(self.frame, self.axis.direction(), jacobian.row(0));
+        kinematics.point_row(
+            self.seen.motion(kinematics),
+            self.seen.point(kinematics),
+            self.seen
+                .direction_in_world(kinematics, self.axis.direction()),
+            jacobian.row(0),
+        );
     }
 
     fn add_curvature(&self, kinematics: &Kinematics, weights: &[f64], hessian: &mut [f64]) {
         let along = self.axis.direction() * weights[0];
-        kinematics.add_point_curvature(self.frame, along, hessian);
+        kinematics.add_point_curvature(
+            self.seen.motion(kinematics),
+            self.seen.point(kinematics),
+            self.seen.direction_in_world(kinematics, along),
+            hessian,
+        );
     }
 
-    fn steepness(&self, reach: f64) -> f64 {
-        reach
+    fn steepness(&self, kinematics: &Kinematics) -> f64 {
+        self.seen.reach(kinematics)
     }
 
     fn unit(&self) -> &'static str {
         "m"
     }
 
-    fn check(&self, dof: usize) -> Result<(), &'static str> {
-        check_frame(self.frame, dof)
+    fn check(&self, robot: &Robot) -> Result<(), &'static str> {
+        self.seen.check(robot)
     }
 }

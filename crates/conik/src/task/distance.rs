@@ -1,16 +1,17 @@
 //! Distance to a point: σ = √((p_o − p)ᵀ(p_o − p)), Eqs. (9) and (10): collision avoidance.
 
-use super::{DENOMINATOR_EPSILON, JacobianMut, Task, add_outer, check_frame};
+use super::{AXES, DENOMINATOR_EPSILON, JacobianMut, Seen, Task, add_outer};
 use crate::geometry::Vec3;
 use crate::joints::JointVec;
-use crate::kinematics::{Frame, Kinematics};
+use crate::kinematics::{Frame, Kinematics, Motion};
+use crate::robot::Robot;
 
-/// Distance of the origin of a frame to a point of the base frame [m].
+/// Distance of the origin of a frame to a point of the world, or of another frame [m].
 ///
 /// At the point itself the direction is undefined and the Jacobian is zero.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Distance {
-    frame: Frame,
+    seen: Seen,
     point: Vec3,
     velocity: Vec3,
 }
@@ -24,18 +25,27 @@ impl Distance {
     /// Distance of any frame's origin to `point` [m].
     pub fn between(frame: Frame, point: impl Into<Vec3>) -> Self {
         Self {
-            frame,
+            seen: Seen::in_world(frame),
             point: point.into(),
             velocity: Vec3::ZERO,
         }
     }
 
-    /// The point in the base frame [m].
+    /// The same with a point that is fixed to another frame of the robot, and given in it.
+    #[must_use]
+    pub const fn relative_to(self, frame: Frame) -> Self {
+        Self {
+            seen: self.seen.from(frame),
+            ..self
+        }
+    }
+
+    /// The point, in the frame that it is fixed to [m].
     pub fn point(&self) -> Vec3 {
         self.point
     }
 
-    /// Velocity of the point in the base frame [m/s].
+    /// Velocity of the point in that frame [m/s].
     pub fn velocity(&self) -> Vec3 {
         self.velocity
     }
@@ -52,9 +62,27 @@ impl Distance {
         self.velocity = velocity.into();
     }
 
+    /// What it is at this moment to one who stands in the world.
+    #[cold]
+    fn in_world(&self, kinematics: &Kinematics) -> Self {
+        let pose = kinematics.world_from(self.seen.from);
+        Self {
+            seen: Seen::in_world(self.seen.frame),
+            point: pose.transform(self.point),
+            velocity: pose.rotate(self.velocity),
+        }
+    }
+
     #[inline]
     fn away_from_point(&self, kinematics: &Kinematics) -> Vec3 {
-        kinematics.base_from(self.frame).origin - self.point
+        self.seen.point(kinematics) - self.point
+    }
+
+    #[inline]
+    fn row(&self, kinematics: &Kinematics, motion: Motion, row: &mut [f64]) {
+        let away = self.away_from_point(kinematics);
+        let direction = away * (1.0 / (away.norm() + DENOMINATOR_EPSILON));
+        kinematics.point_row(motion, self.seen.point(kinematics), direction, row);
     }
 }
 
@@ -65,29 +93,38 @@ impl Task for Distance {
 
     #[inline]
     fn value(&self, kinematics: &Kinematics, value: &mut [f64]) {
+        if self.seen.is_from_elsewhere() {
+            return self.in_world(kinematics).value(kinematics, value);
+        }
         value[0] = self.away_from_point(kinematics).norm();
     }
 
     #[inline]
     fn jacobian(&self, kinematics: &Kinematics, jacobian: &mut JacobianMut<'_>) {
-        let away = self.away_from_point(kinematics);
-        let direction = away * (1.0 / (away.norm() + DENOMINATOR_EPSILON));
-        kinematics.point_row(self.frame, direction, jacobian.row(0));
+        let motion = self.seen.motion(kinematics);
+        if self.seen.is_from_elsewhere() {
+            return self
+                .in_world(kinematics)
+                .row(kinematics, motion, jacobian.row(0));
+        }
+        self.row(kinematics, motion, jacobian.row(0));
     }
 
     /// ∇²σ = Σₖ nₖ ∇²vₖ + Jᵀ (I − n nᵀ) J / σ for σ = |v|, n = v / σ.
     fn add_curvature(&self, kinematics: &Kinematics, weights: &[f64], hessian: &mut [f64]) {
-        let away = self.away_from_point(kinematics);
+        let away = self.in_world(kinematics).away_from_point(kinematics);
         let sigma = away.norm() + DENOMINATOR_EPSILON;
         let along = away * (1.0 / sigma);
-        kinematics.add_point_curvature(self.frame, along * weights[0], hessian);
+        let motion = self.seen.motion(kinematics);
+        let point = self.seen.point(kinematics);
+        kinematics.add_point_curvature(motion, point, along * weights[0], hessian);
         let mut add_bend = |direction: Vec3, weight: f64| {
             let mut row = JointVec::zeros(kinematics.dof());
-            kinematics.point_row(self.frame, direction, &mut row);
+            kinematics.point_row(motion, point, direction, &mut row);
             add_outer(hessian, weight / sigma, &row);
         };
-        for axis in [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]] {
-            add_bend(axis.into(), weights[0]);
+        for axis in AXES {
+            add_bend(axis, weights[0]);
         }
         add_bend(along, -weights[0]);
     }
@@ -97,23 +134,28 @@ impl Task for Distance {
     }
 
     fn value_ahead(&self, kinematics: &Kinematics, ahead_s: f64, value: &mut [f64]) {
-        value[0] = (self.away_from_point(kinematics) - self.velocity * ahead_s).norm();
+        let now = self.in_world(kinematics);
+        value[0] = (now.away_from_point(kinematics) - now.velocity * ahead_s).norm();
     }
 
     fn bend(&self, sigma: f64) -> f64 {
         1.0 / (sigma + DENOMINATOR_EPSILON)
     }
 
-    fn steepness(&self, reach: f64) -> f64 {
-        reach
+    fn steepness(&self, kinematics: &Kinematics) -> f64 {
+        // The point stays where it is on the other frame, however far that is from its joints.
+        match self.seen.from {
+            Frame::World => kinematics.reach(),
+            _ => kinematics.span() + self.point.norm(),
+        }
     }
 
     fn unit(&self) -> &'static str {
         "m"
     }
 
-    fn check(&self, dof: usize) -> Result<(), &'static str> {
-        check_frame(self.frame, dof)?;
+    fn check(&self, robot: &Robot) -> Result<(), &'static str> {
+        self.seen.check(robot)?;
         if self.point.to_array().iter().all(|v| v.is_finite()) {
             Ok(())
         } else {

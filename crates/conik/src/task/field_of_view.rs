@@ -1,9 +1,10 @@
 //! Field of view: σ = √((a_des − a)ᵀ(a_des − a)), a the z axis of a frame, Eqs. (13) to (17).
 
-use super::{DENOMINATOR_EPSILON, JacobianMut, Task, add_outer, check_frame};
+use super::{AXES, DENOMINATOR_EPSILON, JacobianMut, Seen, Task, add_outer};
 use crate::geometry::Vec3;
 use crate::joints::JointVec;
-use crate::kinematics::{Frame, Kinematics};
+use crate::kinematics::{Frame, Kinematics, Motion};
+use crate::robot::Robot;
 
 /// Norm of the difference between a desired direction and the z axis of a frame [-]:
 /// 2 sin(angle / 2), from 0 (aligned) to 2 (opposite).
@@ -11,13 +12,13 @@ use crate::kinematics::{Frame, Kinematics};
 /// Exactly aligned, the Jacobian is zero.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FieldOfView {
-    frame: Frame,
+    seen: Seen,
     direction: Vec3,
     angular_velocity: Vec3,
 }
 
 impl FieldOfView {
-    /// The tool's z axis against `direction`, any non-zero vector of the base frame; its length
+    /// The tool's z axis against `direction`, any non-zero vector of the world; its length
     /// does not matter.
     pub fn of_tool_along(direction: impl Into<Vec3>) -> Self {
         Self::between(Frame::Tool, direction)
@@ -26,18 +27,27 @@ impl FieldOfView {
     /// The z axis of any frame against `direction`.
     pub fn between(frame: Frame, direction: impl Into<Vec3>) -> Self {
         Self {
-            frame,
+            seen: Seen::in_world(frame),
             direction: direction.into().normalized(),
             angular_velocity: Vec3::ZERO,
         }
     }
 
-    /// The desired direction in the base frame, of length 1.
+    /// The same with a direction that is fixed to another frame of the robot, and given in it.
+    #[must_use]
+    pub const fn relative_to(self, frame: Frame) -> Self {
+        Self {
+            seen: self.seen.from(frame),
+            ..self
+        }
+    }
+
+    /// The desired direction in the frame that it is fixed to, of length 1.
     pub fn direction(&self) -> Vec3 {
         self.direction
     }
 
-    /// Angular velocity of the desired direction in the base frame [rad/s].
+    /// Angular velocity of the desired direction in that frame [rad/s].
     pub fn angular_velocity(&self) -> Vec3 {
         self.angular_velocity
     }
@@ -58,9 +68,27 @@ impl FieldOfView {
         self.angular_velocity = angular_velocity.into();
     }
 
+    /// What it is at this moment to one who stands in the world.
+    #[cold]
+    fn in_world(&self, kinematics: &Kinematics) -> Self {
+        let pose = kinematics.world_from(self.seen.from);
+        Self {
+            seen: Seen::in_world(self.seen.frame),
+            direction: pose.rotate(self.direction),
+            angular_velocity: pose.rotate(self.angular_velocity),
+        }
+    }
+
     #[inline]
     fn away_from_desired(&self, kinematics: &Kinematics) -> Vec3 {
-        kinematics.base_from(self.frame).z_axis - self.direction
+        self.seen.z_axis(kinematics) - self.direction
+    }
+
+    #[inline]
+    fn row(&self, kinematics: &Kinematics, motion: Motion, row: &mut [f64]) {
+        let away = self.away_from_desired(kinematics);
+        let direction = away * (1.0 / (away.norm() + DENOMINATOR_EPSILON));
+        kinematics.axis_row(motion, self.seen.z_axis(kinematics), direction, row);
     }
 }
 
@@ -71,29 +99,38 @@ impl Task for FieldOfView {
 
     #[inline]
     fn value(&self, kinematics: &Kinematics, value: &mut [f64]) {
+        if self.seen.is_from_elsewhere() {
+            return self.in_world(kinematics).value(kinematics, value);
+        }
         value[0] = self.away_from_desired(kinematics).norm();
     }
 
     #[inline]
     fn jacobian(&self, kinematics: &Kinematics, jacobian: &mut JacobianMut<'_>) {
-        let away = self.away_from_desired(kinematics);
-        let direction = away * (1.0 / (away.norm() + DENOMINATOR_EPSILON));
-        kinematics.axis_row(self.frame, direction, jacobian.row(0));
+        let motion = self.seen.motion(kinematics);
+        if self.seen.is_from_elsewhere() {
+            return self
+                .in_world(kinematics)
+                .row(kinematics, motion, jacobian.row(0));
+        }
+        self.row(kinematics, motion, jacobian.row(0));
     }
 
     /// ∇²σ = Σₖ nₖ ∇²vₖ + Jᵀ (I − n nᵀ) J / σ for σ = |v|, n = v / σ.
     fn add_curvature(&self, kinematics: &Kinematics, weights: &[f64], hessian: &mut [f64]) {
-        let away = self.away_from_desired(kinematics);
+        let away = self.in_world(kinematics).away_from_desired(kinematics);
         let sigma = away.norm() + DENOMINATOR_EPSILON;
         let along = away * (1.0 / sigma);
-        kinematics.add_axis_curvature(self.frame, along * weights[0], hessian);
+        let motion = self.seen.motion(kinematics);
+        let z_axis = self.seen.z_axis(kinematics);
+        kinematics.add_axis_curvature(motion, z_axis, along * weights[0], hessian);
         let mut add_bend = |direction: Vec3, weight: f64| {
             let mut row = JointVec::zeros(kinematics.dof());
-            kinematics.axis_row(self.frame, direction, &mut row);
+            kinematics.axis_row(motion, z_axis, direction, &mut row);
             add_outer(hessian, weight / sigma, &row);
         };
-        for axis in [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]] {
-            add_bend(axis.into(), weights[0]);
+        for axis in AXES {
+            add_bend(axis, weights[0]);
         }
         add_bend(along, -weights[0]);
     }
@@ -103,15 +140,16 @@ impl Task for FieldOfView {
     }
 
     fn value_ahead(&self, kinematics: &Kinematics, ahead_s: f64, value: &mut [f64]) {
-        let later = self.direction.turned_by(self.angular_velocity * ahead_s);
-        value[0] = (kinematics.base_from(self.frame).z_axis - later).norm();
+        let now = self.in_world(kinematics);
+        let later = now.direction.turned_by(now.angular_velocity * ahead_s);
+        value[0] = (now.seen.z_axis(kinematics) - later).norm();
     }
 
     fn bend(&self, sigma: f64) -> f64 {
         1.0 / (sigma + DENOMINATOR_EPSILON)
     }
 
-    fn steepness(&self, _reach: f64) -> f64 {
+    fn steepness(&self, _kinematics: &Kinematics) -> f64 {
         1.0
     }
 
@@ -119,8 +157,8 @@ impl Task for FieldOfView {
         "-"
     }
 
-    fn check(&self, dof: usize) -> Result<(), &'static str> {
-        check_frame(self.frame, dof)?;
+    fn check(&self, robot: &Robot) -> Result<(), &'static str> {
+        self.seen.check(robot)?;
         // False for NaN too, which is what a zero or infinite vector normalises to.
         if (self.direction.norm() - 1.0).abs() < 1e-9 {
             Ok(())

@@ -2,6 +2,7 @@
 
 use super::{JacobianMut, Task};
 use crate::kinematics::Kinematics;
+use crate::robot::Robot;
 
 /// Position of one joint [rad, or m for a prismatic joint].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -37,7 +38,7 @@ impl Task for JointPosition {
         0.0
     }
 
-    fn steepness(&self, _reach: f64) -> f64 {
+    fn steepness(&self, _kinematics: &Kinematics) -> f64 {
         1.0
     }
 
@@ -45,8 +46,8 @@ impl Task for JointPosition {
         "rad"
     }
 
-    fn check(&self, dof: usize) -> Result<(), &'static str> {
-        if self.index < dof {
+    fn check(&self, robot: &Robot) -> Result<(), &'static str> {
+        if self.index < robot.dof() {
             Ok(())
         } else {
             Err("the robot has no such joint")

@@ -8,6 +8,7 @@ mod distance;
 mod field_of_view;
 mod joint;
 mod position;
+mod seen;
 
 use core::any::Any;
 use core::fmt::Debug;
@@ -18,7 +19,10 @@ pub use field_of_view::FieldOfView;
 pub use joint::JointPosition;
 pub use position::Position;
 
-use crate::kinematics::{Frame, Kinematics};
+use crate::geometry::Vec3;
+use crate::kinematics::Kinematics;
+use crate::robot::Robot;
+use seen::Seen;
 
 /// Added to the denominators of Eqs. (10) and (17), whose Jacobians are undefined at σ = 0.
 pub(crate) const DENOMINATOR_EPSILON: f64 = 1e-9;
@@ -74,19 +78,26 @@ pub trait Task: Any + Debug + Send {
     fn add_curvature(&self, _kinematics: &Kinematics, _weights: &[f64], _hessian: &mut [f64]) {}
 
     /// A bound on how fast the value can change [task's unit/rad]: |J q̇| ≤ steepness · Σ|q̇ᵢ| in every
-    /// configuration. `reach` [m] is the most that a point of the robot can be away from a joint that
-    /// moves it. A set that is so far inside that it cannot be left within a tick costs no Jacobian;
-    /// infinity, of which nothing follows, if no bound is known.
-    fn steepness(&self, _reach: f64) -> f64 {
+    /// configuration, not only the one that `kinematics` is at: see [`Kinematics::reach`] and
+    /// [`Kinematics::span`]. A set that is so far inside that it cannot be left within a tick costs no
+    /// Jacobian; infinity, of which nothing follows, if no bound is known.
+    fn steepness(&self, _kinematics: &Kinematics) -> f64 {
         f64::INFINITY
     }
 
     /// Unit of the value, for people: `m`, `rad`, `-`.
     fn unit(&self) -> &'static str;
 
-    /// Whether the task makes sense on a robot of `dof` joints; if not, the reason.
-    fn check(&self, dof: usize) -> Result<(), &'static str>;
+    /// Whether the task makes sense on this robot; if not, the reason.
+    fn check(&self, robot: &Robot) -> Result<(), &'static str>;
 }
+
+/// The axes of a frame, in it.
+const AXES: [Vec3; 3] = [
+    Vec3::new(1.0, 0.0, 0.0),
+    Vec3::new(0.0, 1.0, 0.0),
+    Vec3::new(0.0, 0.0, 1.0),
+];
 
 /// Where a task writes its Jacobian: m rows of one entry per joint.
 #[derive(Debug)]
@@ -132,13 +143,5 @@ fn add_outer(hessian: &mut [f64], weight: f64, row: &[f64]) {
         for (entry, b) in line.iter_mut().zip(row) {
             *entry += weight * a * b;
         }
-    }
-}
-
-/// Reports a frame that a robot of `dof` joints does not have.
-fn check_frame(frame: Frame, dof: usize) -> Result<(), &'static str> {
-    match frame {
-        Frame::Link(joints) if joints > dof => Err("the robot has no such link"),
-        _ => Ok(()),
     }
 }

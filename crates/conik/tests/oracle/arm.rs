@@ -1,6 +1,6 @@
 //! A serial arm by homogeneous matrices: values and Jacobians of the tasks.
 
-use conik::{DhRow, Joint, JointKind, JointLimits, Robot};
+use conik::{DhRow, JointLimits, Robot};
 use nalgebra::{DMatrix, DVector, Matrix4, Vector3};
 
 use super::Measure;
@@ -36,17 +36,13 @@ impl Arm {
 
     /// The same arm for the crate.
     pub fn robot(&self) -> Robot {
-        let joint = |(i, &[a, alpha, d]): (usize, &[f64; 3])| Joint {
-            name: format!("joint_{i}"),
-            kind: JointKind::Revolute,
-            dh: DhRow::new(a, alpha, d),
-            limits: JointLimits {
-                speed: Some(SPEED_LIMIT),
-                ..JointLimits::default()
-            },
+        let rows = self.0.iter().map(|&[a, alpha, d]| DhRow::new(a, alpha, d));
+        let arm = Robot::from_dh("arm", &rows.collect::<Vec<_>>()).expect("finite rows");
+        let limits = JointLimits {
+            speed: Some(SPEED_LIMIT),
+            ..JointLimits::default()
         };
-        let joints = self.0.iter().enumerate().map(joint).collect();
-        Robot::from_joints("arm", joints).expect("finite rows")
+        arm.with_limits(|_, _| limits).expect("sound")
     }
 
     /// Base frame from each of the frames 0 to n.

@@ -45,7 +45,7 @@ impl Example {
         let tool = self
             .controller
             .kinematics_at(&self.q)
-            .base_from(conik::Frame::Tool)
+            .world_from(conik::Frame::Tool)
             .origin;
         self.waypoints.advance(tool);
         let target = self.waypoints.target().to_array();
