@@ -1,8 +1,7 @@
 //! Distance to a point: σ = √((p_o − p)ᵀ(p_o − p)), Eqs. (9) and (10): collision avoidance.
 
-use super::{AXES, DENOMINATOR_EPSILON, JacobianMut, Seen, Task, add_outer};
+use super::{JacobianMut, Seen, Task, norm};
 use crate::geometry::Vec3;
-use crate::joints::JointVec;
 use crate::kinematics::{Frame, Kinematics, Motion};
 use crate::robot::Robot;
 
@@ -81,7 +80,7 @@ impl Distance {
     #[inline]
     fn row(&self, kinematics: &Kinematics, motion: Motion, row: &mut [f64]) {
         let away = self.away_from_point(kinematics);
-        let direction = away * (1.0 / (away.norm() + DENOMINATOR_EPSILON));
+        let direction = norm::direction(away);
         kinematics.point_row(motion, self.seen.point(kinematics), direction, row);
     }
 }
@@ -110,23 +109,14 @@ impl Task for Distance {
         self.row(kinematics, motion, jacobian.row(0));
     }
 
-    /// ∇²σ = Σₖ nₖ ∇²vₖ + Jᵀ (I − n nᵀ) J / σ for σ = |v|, n = v / σ.
     fn add_curvature(&self, kinematics: &Kinematics, weights: &[f64], hessian: &mut [f64]) {
         let away = self.in_world(kinematics).away_from_point(kinematics);
-        let sigma = away.norm() + DENOMINATOR_EPSILON;
-        let along = away * (1.0 / sigma);
         let motion = self.seen.motion(kinematics);
         let point = self.seen.point(kinematics);
-        kinematics.add_point_curvature(motion, point, along * weights[0], hessian);
-        let mut add_bend = |direction: Vec3, weight: f64| {
-            let mut row = JointVec::zeros(kinematics.dof());
-            kinematics.point_row(motion, point, direction, &mut row);
-            add_outer(hessian, weight / sigma, &row);
-        };
-        for axis in AXES {
-            add_bend(axis, weights[0]);
-        }
-        add_bend(along, -weights[0]);
+        let along = norm::direction(away) * weights[0];
+        kinematics.add_point_curvature(motion, point, along, hessian);
+        let row = |along: Vec3, row: &mut [f64]| kinematics.point_row(motion, point, along, row);
+        norm::add_bending(away, weights[0], row, kinematics.dof(), hessian);
     }
 
     fn is_moving(&self) -> bool {
@@ -139,7 +129,7 @@ impl Task for Distance {
     }
 
     fn bend(&self, sigma: f64) -> f64 {
-        1.0 / (sigma + DENOMINATOR_EPSILON)
+        norm::bend(sigma)
     }
 
     fn steepness(&self, kinematics: &Kinematics) -> f64 {

@@ -1,8 +1,7 @@
 //! Field of view: σ = √((a_des − a)ᵀ(a_des − a)), a the z axis of a frame, Eqs. (13) to (17).
 
-use super::{AXES, DENOMINATOR_EPSILON, JacobianMut, Seen, Task, add_outer};
+use super::{JacobianMut, Seen, Task, norm};
 use crate::geometry::Vec3;
-use crate::joints::JointVec;
 use crate::kinematics::{Frame, Kinematics, Motion};
 use crate::robot::Robot;
 
@@ -87,7 +86,7 @@ impl FieldOfView {
     #[inline]
     fn row(&self, kinematics: &Kinematics, motion: Motion, row: &mut [f64]) {
         let away = self.away_from_desired(kinematics);
-        let direction = away * (1.0 / (away.norm() + DENOMINATOR_EPSILON));
+        let direction = norm::direction(away);
         kinematics.axis_row(motion, self.seen.z_axis(kinematics), direction, row);
     }
 }
@@ -116,23 +115,14 @@ impl Task for FieldOfView {
         self.row(kinematics, motion, jacobian.row(0));
     }
 
-    /// ∇²σ = Σₖ nₖ ∇²vₖ + Jᵀ (I − n nᵀ) J / σ for σ = |v|, n = v / σ.
     fn add_curvature(&self, kinematics: &Kinematics, weights: &[f64], hessian: &mut [f64]) {
         let away = self.in_world(kinematics).away_from_desired(kinematics);
-        let sigma = away.norm() + DENOMINATOR_EPSILON;
-        let along = away * (1.0 / sigma);
         let motion = self.seen.motion(kinematics);
         let z_axis = self.seen.z_axis(kinematics);
-        kinematics.add_axis_curvature(motion, z_axis, along * weights[0], hessian);
-        let mut add_bend = |direction: Vec3, weight: f64| {
-            let mut row = JointVec::zeros(kinematics.dof());
-            kinematics.axis_row(motion, z_axis, direction, &mut row);
-            add_outer(hessian, weight / sigma, &row);
-        };
-        for axis in AXES {
-            add_bend(axis, weights[0]);
-        }
-        add_bend(along, -weights[0]);
+        let along = norm::direction(away) * weights[0];
+        kinematics.add_axis_curvature(motion, z_axis, along, hessian);
+        let row = |along: Vec3, row: &mut [f64]| kinematics.axis_row(motion, z_axis, along, row);
+        norm::add_bending(away, weights[0], row, kinematics.dof(), hessian);
     }
 
     fn is_moving(&self) -> bool {
@@ -146,7 +136,7 @@ impl Task for FieldOfView {
     }
 
     fn bend(&self, sigma: f64) -> f64 {
-        1.0 / (sigma + DENOMINATOR_EPSILON)
+        norm::bend(sigma)
     }
 
     fn steepness(&self, _kinematics: &Kinematics) -> f64 {

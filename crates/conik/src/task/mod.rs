@@ -7,6 +7,7 @@ mod coordinate;
 mod distance;
 mod field_of_view;
 mod joint;
+mod norm;
 mod position;
 mod seen;
 
@@ -23,9 +24,6 @@ use crate::geometry::Vec3;
 use crate::kinematics::Kinematics;
 use crate::robot::Robot;
 use seen::Seen;
-
-/// Added to the denominators of Eqs. (10) and (17), whose Jacobians are undefined at σ = 0.
-pub(crate) const DENOMINATOR_EPSILON: f64 = 1e-9;
 
 /// A task: its value and its Jacobian in a configuration.
 ///
