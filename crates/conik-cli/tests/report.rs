@@ -28,13 +28,13 @@ fn the_page_tells_the_run_in_the_papers_order() {
         "Errors of the equality tasks",
         "Tasks, the most important first",
         "The five properties",
-        "Mode changes",
         "Step time and tracking",
         "The arm ran 104.2 ms behind its reference",
         "Largest, less the delay",
         "Cycles of the arm",
         "2 cycles were missed, 0 repeated.",
         "Histogram",
+        "Mode changes",
         "Settings",
     ];
     let places: Vec<usize> = order

@@ -47,11 +47,14 @@ pub fn page(run: &Run) -> String {
             monitors::section(run),
         ]);
     }
-    sections.push(tables::mode_changes(run));
     if !run.was_cut_off() {
         sections.extend([tables::timing(run), cycles::section(run)]);
     }
-    sections.extend([joints_section(run), settings(run)]);
+    sections.extend([
+        joints_section(run),
+        tables::mode_changes(run),
+        settings(run),
+    ]);
     format!(
         "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
          <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\

@@ -15,6 +15,9 @@ use crate::figure::{Run, quantity};
 /// More mode changes than this are not listed: the log has them.
 const MOST_CHANGES: usize = 200;
 
+/// A longer list of changes is folded.
+const READ_AT_A_GLANCE: usize = 40;
+
 /// What was asked of each task and what became of it.
 pub fn tasks(run: &Run) -> String {
     let nothing = TaskSummary::default();
@@ -156,7 +159,14 @@ pub fn mode_changes(run: &Run) -> String {
         String::new()
     };
     let columns = [("Since", true), ("Mode", true), ("Active sets", false)];
-    section("Mode changes", &columns, &body, &note)
+    let table = table(&columns, &body);
+    let list = if changes.len() > READ_AT_A_GLANCE {
+        let count = changes.len().min(MOST_CHANGES);
+        format!("<details>\n<summary>The first {count}</summary>\n{table}{note}</details>\n")
+    } else {
+        table + &note
+    };
+    format!("<section>\n<h2>Mode changes</h2>\n{list}</section>\n")
 }
 
 /// How fast the controller was, and how closely the arm followed.
