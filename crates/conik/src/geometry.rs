@@ -58,6 +58,28 @@ impl Vec3 {
         self * (1.0 / self.norm())
     }
 
+    /// The direction, with length 1; zero where there is none.
+    #[inline]
+    #[must_use]
+    pub(crate) fn direction_or_zero(self) -> Self {
+        // Squares of smaller numbers are not normal.
+        if self.norm() > 1e-150 {
+            self.normalized()
+        } else {
+            Self::ZERO
+        }
+    }
+
+    /// Whether every coordinate is a finite number.
+    pub fn is_finite(self) -> bool {
+        self.to_array().iter().all(|v| v.is_finite())
+    }
+
+    /// Whether the length is 1, to 1e-9: false of what a zero or infinite vector normalises to.
+    pub(crate) fn is_unit(self) -> bool {
+        (self.norm() - 1.0).abs() < 1e-9
+    }
+
     /// The direction after a turn about `rotation` by its length [rad], right-handed (Rodrigues).
     #[must_use]
     pub fn turned_by(self, rotation: Self) -> Self {

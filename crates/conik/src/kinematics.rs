@@ -1,5 +1,7 @@
 //! What follows from one configuration: where every frame is, and how its points move.
 
+mod curvature;
+
 use alloc::vec::Vec;
 
 use crate::geometry::{Pose, Vec3};
@@ -45,6 +47,7 @@ pub struct Kinematics {
     links: Vec<usize>,
     reach: f64,
     span: f64,
+    turning: f64,
     q: JointVec,
     /// Position of each body's joint [rad or m], if they are not q.
     positions: JointVec,
@@ -138,6 +141,7 @@ impl Kinematics {
         let drives: Vec<Mimic> = robot.bodies().iter().map(|body| body.drive).collect();
         let is_direct = drives.iter().enumerate().all(own);
         let zeros = JointVec::zeros(bodies.len());
+        let turning = turning(&drives);
         let mut kinematics = Self {
             poses: alloc::vec![Pose::IDENTITY; moved_by.len()],
             twists: alloc::vec![TwoTwists::default(); bodies.len().div_ceil(2)],
@@ -146,8 +150,9 @@ impl Kinematics {
             links,
             fixed,
             moved_by,
-            reach: reach(robot, false),
-            span: 2.0 * reach(robot, true),
+            reach: turning * reach(robot, false),
+            span: turning * 2.0 * reach(robot, true),
+            turning,
             bodies,
             drives: if is_direct { Vec::new() } else { drives },
             q: JointVec::zeros(robot.dof()),
@@ -234,18 +239,26 @@ impl Kinematics {
         self.q.len()
     }
 
-    /// The most that a frame of the robot can be away from a joint that moves it [m]; infinite if the
-    /// robot has sliding joints.
+    /// The most that a joint can move a frame of the robot [m/rad]: how far away from it that can be;
+    /// infinite if the robot has sliding joints.
     #[inline]
     pub fn reach(&self) -> f64 {
         self.reach
     }
 
-    /// The most that two frames of the robot can be apart, or a frame and a joint that does not move it
-    /// [m]; infinite if the robot has sliding joints.
+    /// The most that a joint can move a frame as another one sees it [m/rad]: how far two frames of the
+    /// robot, or a frame and a joint that does not move it, can be apart; infinite if the robot has
+    /// sliding joints.
     #[inline]
     pub fn span(&self) -> f64 {
         self.span
+    }
+
+    /// The most that a joint can turn a frame, as any other sees it [rad/rad]: 1, but for joints that
+    /// others follow.
+    #[inline]
+    pub fn turning(&self) -> f64 {
+        self.turning
     }
 
     /// The configuration [rad or m].
@@ -346,72 +359,6 @@ impl Kinematics {
         self.turn_row(motion, axis.cross(direction), row);
     }
 
-    /// Adds the second derivatives [m/rad²] of a point along `direction` to `hessian`, one row of one
-    /// entry per joint for each joint.
-    pub fn add_point_curvature(
-        &self,
-        motion: Motion,
-        point: Vec3,
-        direction: Vec3,
-        hessian: &mut [f64],
-    ) {
-        // d · (ω × p + v), as in `point_row`.
-        self.add_curvature(motion, direction, hessian, |direction, twist, i| {
-            let (turn, slide) = twist.get(i);
-            turn.dot(point.cross(direction)) + slide.dot(direction)
-        });
-    }
-
-    /// Adds the second derivatives [1/rad²] of a unit vector that is fixed to a frame, along `direction`,
-    /// to `hessian`, one row of one entry per joint for each joint.
-    pub fn add_axis_curvature(
-        &self,
-        motion: Motion,
-        axis: Vec3,
-        direction: Vec3,
-        hessian: &mut [f64],
-    ) {
-        self.add_curvature(motion, direction, hessian, |direction, twist, i| {
-            twist.get(i).0.dot(axis.cross(direction))
-        });
-    }
-
-    /// Of two joints between the frames, the one nearer to where they are seen from turns all that the
-    /// other does: the second derivative along d is d · (zᵢ × Jⱼ), which is entry j of the row along
-    /// d × zᵢ.
-    fn add_curvature(
-        &self,
-        motion: Motion,
-        direction: Vec3,
-        hessian: &mut [f64],
-        entry: impl Fn(Vec3, &TwoTwists, usize) -> f64,
-    ) {
-        let n = self.dof();
-        // From there the way goes back to what carries both, then forward.
-        let back = (0..self.bodies.len())
-            .rev()
-            .filter(|i| motion.backward >> i & 1 == 1);
-        let forth = (0..self.bodies.len()).filter(|i| motion.forward >> i & 1 == 1);
-        let way = back.chain(forth);
-        for (place, i) in way.clone().enumerate() {
-            if self.bodies[i].kind == JointKind::Prismatic {
-                continue;
-            }
-            let (joint, rate) = self.drive(i);
-            let rate = rate * motion.sign(i);
-            let (axis, _) = self.twists[i / 2].get(i % 2);
-            let along = direction.cross(axis) * rate;
-            for j in way.clone().skip(place) {
-                let (other, other_rate) = self.drive(j);
-                let bend = entry(along, &self.twists[j / 2], j % 2) * other_rate * motion.sign(j);
-                hessian[joint * n + other] += bend;
-                if i != j {
-                    hessian[other * n + joint] += bend;
-                }
-            }
-        }
-    }
-
     /// The joint that moves a body, and how far per unit of it.
     fn drive(&self, body: usize) -> (usize, f64) {
         let drive = self.drives.get(body);
@@ -480,6 +427,15 @@ fn reach(robot: &Robot, from_world: bool) -> f64 {
     links
         .map(|link| lengths[link.body.index()] + link.placement.origin.norm())
         .fold(0.0, f64::max)
+}
+
+/// The most that one joint can turn, itself and what follows it [rad/rad].
+fn turning(drives: &[Mimic]) -> f64 {
+    let of = |joint: usize| -> f64 {
+        let driven = drives.iter().filter(|drive| drive.joint == joint);
+        driven.map(|drive| drive.multiplier.abs()).sum()
+    };
+    (0..drives.len()).map(of).fold(0.0, f64::max)
 }
 
 /// Of a row that counts every joint as one that moves the frame, what those between the two make.

@@ -80,6 +80,7 @@ mod real;
 mod reason;
 mod restless;
 mod robot;
+mod rotation;
 mod settings;
 mod sides;
 mod stack;
@@ -114,7 +115,9 @@ pub use settings::{Border, ModeRule, Recursion, Settings};
 pub use stack::{BoundRates, Goal, Level, Setpoints, Stack, StackError, StackErrorReason};
 pub use step::Step;
 pub use task::{
-    Axis, Coordinate, Distance, FieldOfView, JacobianMut, JointPosition, Position, Task,
+    Axis, Coordinate, Distance, Elbow, FieldOfView, FramePose, JacobianMut, JacobianPart,
+    JointPosition, JointSpeed, LookAt, Manipulability, Orientation, OrientationAngle, Plane,
+    PointingAngle, Position, Posture, SmallestSingularValue, Task,
 };
 pub use task_id::TaskId;
 pub use waypoints::Waypoints;

@@ -1,8 +1,8 @@
 //! Second derivatives of every task against central differences of its own Jacobian.
 
 use conik::{
-    Axis, Coordinate, Distance, FieldOfView, Frame, JacobianMut, JointPosition, Kinematics,
-    Position, Robot, Task,
+    Axis, Coordinate, Distance, FieldOfView, Frame, JacobianMut, JointPosition, Kinematics, Plane,
+    PointingAngle, Position, Robot, Task,
 };
 
 mod robots;
@@ -24,6 +24,14 @@ fn tasks() -> Vec<Box<dyn Task>> {
         Box::new(Coordinate::of(Frame::World, Axis::X).relative_to(Frame::Link(4))),
         Box::new(Distance::of_tool_to([0.4, -0.3, 0.5]).relative_to(Frame::Link(1))),
         Box::new(FieldOfView::of_tool_along([1.0, 0.3, -0.2]).relative_to(Frame::Link(3))),
+        Box::new(Plane::of_tool_to([1.0, 2.0, -0.5], 0.3)),
+        Box::new(Plane::height_of(Frame::World).relative_to(Frame::Link(4))),
+        Box::new(PointingAngle::of_tool_along([1.0, -0.5, 0.3])),
+        Box::new(
+            PointingAngle::between(Frame::Link(5), [1.0, 0.3, -0.2])
+                .with_axis([0.1, 2.0, -0.4])
+                .relative_to(Frame::Link(3)),
+        ),
         Box::new(JointPosition::of(2)),
     ]
 }

@@ -6,6 +6,7 @@ mod dual_active_set;
 mod held_fit;
 mod minimum_norm;
 mod row_space;
+mod singular;
 mod symmetric;
 
 pub(crate) use damped::Damped;
@@ -15,6 +16,7 @@ pub(crate) use dual_active_set::{Constraints, DualActiveSet, Solution, VIOLATION
 pub(crate) use held_fit::{HeldFit, HeldProblem};
 pub(crate) use minimum_norm::MinimumNorm;
 pub(crate) use row_space::RowSpace;
+pub(crate) use singular::singular_vectors;
 
 /// A row that keeps less than this share of its length beside the rows before it depends on them.
 ///

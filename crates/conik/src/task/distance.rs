@@ -136,7 +136,7 @@ impl Task for Distance {
         // The point stays where it is on the other frame, however far that is from its joints.
         match self.seen.from {
             Frame::World => kinematics.reach(),
-            _ => kinematics.span() + self.point.norm(),
+            _ => kinematics.span() + kinematics.turning() * self.point.norm(),
         }
     }
 

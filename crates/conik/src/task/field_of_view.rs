@@ -139,8 +139,8 @@ impl Task for FieldOfView {
         norm::bend(sigma)
     }
 
-    fn steepness(&self, _kinematics: &Kinematics) -> f64 {
-        1.0
+    fn steepness(&self, kinematics: &Kinematics) -> f64 {
+        kinematics.turning()
     }
 
     fn unit(&self) -> &'static str {

@@ -5,27 +5,55 @@
 
 mod coordinate;
 mod distance;
+mod elbow;
 mod field_of_view;
+mod frame_jacobian;
+mod frame_pose;
 mod joint;
+mod joint_speed;
+mod look_at;
+mod manipulability;
 mod norm;
+mod orientation;
+mod plane;
+mod pointing_angle;
 mod position;
+mod posture;
 mod seen;
+mod smallest_singular_value;
 
 use core::any::Any;
 use core::fmt::Debug;
 
 pub use coordinate::{Axis, Coordinate};
 pub use distance::Distance;
+pub use elbow::Elbow;
 pub use field_of_view::FieldOfView;
+pub use frame_jacobian::JacobianPart;
+pub use frame_pose::FramePose;
 pub use joint::JointPosition;
+pub use joint_speed::JointSpeed;
+pub use look_at::LookAt;
+pub use manipulability::Manipulability;
+pub use orientation::{Orientation, OrientationAngle};
+pub use plane::Plane;
+pub use pointing_angle::PointingAngle;
 pub use position::Position;
+pub use posture::Posture;
+pub use smallest_singular_value::SmallestSingularValue;
 
 use crate::geometry::Vec3;
 use crate::kinematics::Kinematics;
 use crate::robot::Robot;
 use seen::Seen;
 
+/// Where a length [m] or a sine is smaller, no direction follows from it, and derivatives that divide by it
+/// are taken to be zero.
+const NEARLY_ZERO: f64 = 1e-9;
+
 /// A task: its value and its Jacobian in a configuration.
+///
+/// `examples/own_task.rs` is one of a user's own, in thirty lines.
 ///
 /// Implementations must not allocate, and must give finite numbers for every finite configuration.
 /// What they give depends on the configuration and on the task's own parameters alone, which change

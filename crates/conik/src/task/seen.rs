@@ -1,6 +1,6 @@
 //! A frame as another one sees it: what most tasks measure something of.
 
-use crate::geometry::Vec3;
+use crate::geometry::{Pose, Vec3};
 use crate::kinematics::{Frame, Kinematics, Motion};
 use crate::robot::Robot;
 
@@ -62,6 +62,15 @@ impl Seen {
         match self.from {
             Frame::World => origin,
             from => kinematics.world_from(from).untransform(origin),
+        }
+    }
+
+    /// The frame in the one that it is seen from.
+    pub(crate) fn pose(self, kinematics: &Kinematics) -> Pose {
+        let pose = *kinematics.world_from(self.frame);
+        match self.from {
+            Frame::World => pose,
+            from => kinematics.world_from(from).inverse() * pose,
         }
     }
 
