@@ -37,6 +37,8 @@ impl Body {
 pub struct RobotBuilder {
     name: String,
     joints: Vec<Joint>,
+    /// Of each follower, its name and the joint that it follows.
+    followers: Vec<(String, usize)>,
     bodies: Vec<MovedBody>,
     links: Vec<Link>,
     tool: Option<usize>,
@@ -46,7 +48,7 @@ pub struct RobotBuilder {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Mimic {
     /// Number of the joint that it follows, counted from 0 in the order of addition, followers not
-    /// counted.
+    /// counted. It may be added later.
     pub joint: usize,
     /// Units of its own per unit of the other.
     pub multiplier: f64,
@@ -60,6 +62,7 @@ impl RobotBuilder {
         Self {
             name: name.into(),
             joints: Vec::new(),
+            followers: Vec::new(),
             bodies: Vec::new(),
             links: Vec::new(),
             tool: None,
@@ -108,12 +111,6 @@ impl RobotBuilder {
         (kind, mimic, name): (JointKind, Mimic, &str),
         joint_from_body: Pose,
     ) -> Result<Body, RobotError> {
-        if mimic.joint >= self.joints.len() {
-            return Err(RobotError::BadNumber {
-                joint: name.to_string(),
-                what: "the joint that it follows must have been added before",
-            });
-        }
         if !mimic.multiplier.is_finite() || !mimic.offset.is_finite() {
             return Err(RobotError::BadNumber {
                 joint: name.to_string(),
@@ -127,7 +124,9 @@ impl RobotBuilder {
             joint_from_body,
             drive: mimic,
         };
-        self.add(body, name)
+        let body = self.add(body, name)?;
+        self.followers.push((name.to_string(), mimic.joint));
+        Ok(body)
     }
 
     fn add(&mut self, body: MovedBody, name: &str) -> Result<Body, RobotError> {
@@ -179,6 +178,13 @@ impl RobotBuilder {
     pub fn build(self) -> Result<Robot, RobotError> {
         if self.joints.is_empty() {
             return Err(RobotError::NoJoints);
+        }
+        let mut followers = self.followers.into_iter();
+        if let Some((joint, _)) = followers.find(|(_, leader)| *leader >= self.joints.len()) {
+            return Err(RobotError::BadNumber {
+                joint,
+                what: "the robot has no joint of the number that it follows",
+            });
         }
         let Some(last) = self.links.len().checked_sub(1) else {
             return Err(RobotError::NoLinks);
