@@ -82,6 +82,7 @@ mod restless;
 mod robot;
 mod rotation;
 mod settings;
+mod shape;
 mod sides;
 mod stack;
 mod step;
@@ -112,12 +113,13 @@ pub use robot::{
     RobotError,
 };
 pub use settings::{Border, ModeRule, Recursion, Settings};
+pub use shape::{Capsule, Closest, Cuboid, Cylinder, HalfSpace, Shape, Sphere};
 pub use stack::{BoundRates, Goal, Level, Setpoints, Stack, StackError, StackErrorReason};
 pub use step::Step;
 pub use task::{
     Axis, Coordinate, Distance, Elbow, FieldOfView, FramePose, JacobianMut, JacobianPart,
     JointPosition, JointSpeed, LookAt, Manipulability, Orientation, OrientationAngle, Plane,
-    PointingAngle, Position, Posture, SmallestSingularValue, Task,
+    PointingAngle, Position, Posture, ShapeDistance, SmallestSingularValue, Task,
 };
 pub use task_id::TaskId;
 pub use waypoints::Waypoints;

@@ -6,10 +6,11 @@ use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
 
 use conik::{
-    Axis, Border, Controller, Coordinate, DhRow, Distance, Elbow, FieldOfView, Frame, FramePose,
-    JacobianPart, JointPosition, JointSpeed, JointVec, LookAt, Manipulability, ModeRule,
-    Orientation, OrientationAngle, Plane, PointingAngle, Pose, Position, Posture, Recursion, Robot,
-    Settings, SmallestSingularValue, Stack, StackError, Vec3,
+    Axis, Border, Capsule, Controller, Coordinate, Cuboid, Cylinder, DhRow, Distance, Elbow,
+    FieldOfView, Frame, FramePose, HalfSpace, JacobianPart, JointPosition, JointSpeed, JointVec,
+    LookAt, Manipulability, ModeRule, Orientation, OrientationAngle, Plane, PointingAngle, Pose,
+    Position, Posture, Recursion, Robot, Settings, Shape, ShapeDistance, SmallestSingularValue,
+    Stack, StackError, Vec3,
 };
 use paper::Example;
 
@@ -85,6 +86,20 @@ fn large(settings: Settings) -> Controller {
             stack.set(&format!("wall {axis:?}"), wall, -0.7..=0.9)?;
         }
         stack.set("ball", Distance::of_tool_to([0.6, 0.1, 0.2]), 0.1..)?;
+        let forearm = Capsule::new([0.0; 3], [0.15, 0.0, 0.0], 0.04);
+        let crate_ = Cuboid::new(Pose::at(Vec3::new(0.5, -0.4, 0.5)), [0.2, 0.3, 0.1]);
+        let can = Cylinder::new([0.3, 0.3, 0.0], [0.3, 0.3, 0.4], 0.1);
+        let hand = Cuboid::new(Pose::IDENTITY, [0.05; 3]);
+        let floor = HalfSpace::new([0.0, 0.0, -0.6], [0.0, 0.0, 1.0]);
+        let forearm_to = |other: Shape| ShapeDistance::between(Frame::Link(7), forearm, other);
+        stack.set("forearm/crate", forearm_to(crate_.into()), 0.01..)?;
+        stack.set("forearm/can", forearm_to(can.into()), 0.01..)?;
+        stack.set("forearm/floor", forearm_to(floor.into()), 0.01..)?;
+        let hand_to_crate = ShapeDistance::between(Frame::Tool, hand, crate_);
+        stack.set("hand/crate", hand_to_crate, 0.01..)?;
+        let to_upper_arm =
+            ShapeDistance::between(Frame::Tool, hand, forearm).relative_to(Frame::Link(3));
+        stack.set("hand/arm", to_upper_arm, 0.01..)?;
         let view = FieldOfView::of_tool_along([0.2, 0.5, 1.0]);
         stack.equality("position", Position::of_tool(), &[0.5, -0.4, 0.5], 1.0)?;
         stack.set_with_gain("view", view, ..=0.5, 1.0)?;

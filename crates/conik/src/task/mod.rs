@@ -20,6 +20,7 @@ mod pointing_angle;
 mod position;
 mod posture;
 mod seen;
+mod shape_distance;
 mod smallest_singular_value;
 
 use core::any::Any;
@@ -40,6 +41,7 @@ pub use plane::Plane;
 pub use pointing_angle::PointingAngle;
 pub use position::Position;
 pub use posture::Posture;
+pub use shape_distance::ShapeDistance;
 pub use smallest_singular_value::SmallestSingularValue;
 
 use crate::geometry::Vec3;
@@ -119,7 +121,7 @@ pub trait Task: Any + Debug + Send {
 }
 
 /// The axes of a frame, in it.
-const AXES: [Vec3; 3] = [
+pub(crate) const AXES: [Vec3; 3] = [
     Vec3::new(1.0, 0.0, 0.0),
     Vec3::new(0.0, 1.0, 0.0),
     Vec3::new(0.0, 0.0, 1.0),
