@@ -87,7 +87,7 @@ const CASES: &[Case] = &[
     case("title = \"good\"", "colour = 3", "colour", 1, &["unknown key", "`robot`, `control`, `ur`, `task`"]),
     case("[control]", "[contol]", "contol", 5, &["did you mean `control`?"]),
     // [robot]
-    case("model = \"ur5-paper\"", "model = \"ur5\"", "robot.model", 3, &["unknown robot \"ur5\"", "\"ur5-paper\""]),
+    case("model = \"ur5-paper\"", "model = \"ur6\"", "robot.model", 3, &["unknown robot \"ur6\"", "\"ur5-paper\""]),
     case("model = \"ur5-paper\"", "model = \"ur5_paper\"", "robot.model", 3, &["did you mean \"ur5-paper\""]),
     case("model = \"ur5-paper\"", "", "robot.model", 2, &["missing", "model = \"ur5-paper\""]),
     case("model = \"ur5-paper\"", "model = 5", "robot.model", 3, &["expected text"]),

@@ -1,11 +1,12 @@
-//! What the maker publishes of its arms: Denavit-Hartenberg parameters and joint speeds.
+//! What the maker publishes of its arms: Denavit-Hartenberg parameters and joint speeds, by model and
+//! series of the controller. The figures are those of the built-in robots.
 
 use crate::registers::JOINTS;
+use conik::UrArm;
 use conik_sim::scenario::{Choice, UrModel, UrSeries};
-use std::f64::consts::FRAC_PI_2;
 
 /// Twists α of all arms, joint by joint [rad].
-pub const TWISTS: [f64; JOINTS] = [FRAC_PI_2, 0.0, 0.0, FRAC_PI_2, -FRAC_PI_2, 0.0];
+pub const TWISTS: [f64; JOINTS] = UrArm::TWISTS_RAD;
 
 /// One arm of one series.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -22,94 +23,27 @@ pub struct ArmFacts {
     pub most_speed_deg: [f64; JOINTS],
 }
 
-/// Speeds of the larger arms' e-Series and CB3 [deg/s].
-const SLOW_SHOULDER: [f64; JOINTS] = [120.0, 120.0, 180.0, 180.0, 180.0, 180.0];
-/// Speeds of the UR20 and the UR30 [deg/s].
-const HEAVY: [f64; JOINTS] = [120.0, 120.0, 150.0, 210.0, 210.0, 210.0];
-/// Speeds of the UR3 [deg/s].
-const QUICK_WRIST: [f64; JOINTS] = [180.0, 180.0, 180.0, 360.0, 360.0, 360.0];
-
 impl ArmFacts {
     /// Every arm of which the figures are known.
     pub const ALL: &'static [Self] = &[
-        Self::new(
-            UrModel::Ur3,
-            UrSeries::Cb3,
-            [-0.24365, -0.21325],
-            [0.1519, 0.11235, 0.08535, 0.0819],
-            QUICK_WRIST,
-        ),
-        Self::new(
-            UrModel::Ur5,
-            UrSeries::Cb3,
-            [-0.425, -0.39225],
-            [0.089_159, 0.10915, 0.09465, 0.0823],
-            [180.0; JOINTS],
-        ),
-        Self::new(
-            UrModel::Ur10,
-            UrSeries::Cb3,
-            [-0.612, -0.5723],
-            [0.1273, 0.163_941, 0.1157, 0.0922],
-            SLOW_SHOULDER,
-        ),
-        Self::new(
-            UrModel::Ur3,
-            UrSeries::ESeries,
-            [-0.24355, -0.2132],
-            [0.15185, 0.13105, 0.08535, 0.0921],
-            QUICK_WRIST,
-        ),
-        Self::new(
-            UrModel::Ur5,
-            UrSeries::ESeries,
-            [-0.425, -0.3922],
-            [0.1625, 0.1333, 0.0997, 0.0996],
-            [180.0; JOINTS],
-        ),
-        Self::new(
-            UrModel::Ur10,
-            UrSeries::ESeries,
-            [-0.6127, -0.57155],
-            [0.1807, 0.17415, 0.11985, 0.11655],
-            SLOW_SHOULDER,
-        ),
-        Self::new(
-            UrModel::Ur16,
-            UrSeries::ESeries,
-            [-0.4784, -0.36],
-            [0.1807, 0.17415, 0.11985, 0.11655],
-            SLOW_SHOULDER,
-        ),
-        Self::new(
-            UrModel::Ur20,
-            UrSeries::ESeries,
-            [-0.862, -0.7287],
-            [0.2363, 0.201, 0.1593, 0.1543],
-            HEAVY,
-        ),
-        Self::new(
-            UrModel::Ur30,
-            UrSeries::ESeries,
-            [-0.637, -0.5037],
-            [0.2363, 0.201, 0.1593, 0.1543],
-            HEAVY,
-        ),
+        Self::new(UrModel::Ur3, UrSeries::Cb3, &UrArm::UR3),
+        Self::new(UrModel::Ur5, UrSeries::Cb3, &UrArm::UR5),
+        Self::new(UrModel::Ur10, UrSeries::Cb3, &UrArm::UR10),
+        Self::new(UrModel::Ur3, UrSeries::ESeries, &UrArm::UR3E),
+        Self::new(UrModel::Ur5, UrSeries::ESeries, &UrArm::UR5E),
+        Self::new(UrModel::Ur10, UrSeries::ESeries, &UrArm::UR10E),
+        Self::new(UrModel::Ur16, UrSeries::ESeries, &UrArm::UR16E),
+        Self::new(UrModel::Ur20, UrSeries::ESeries, &UrArm::UR20),
+        Self::new(UrModel::Ur30, UrSeries::ESeries, &UrArm::UR30),
     ];
 
-    const fn new(
-        model: UrModel,
-        series: UrSeries,
-        [upper_arm, forearm]: [f64; 2],
-        [shoulder, wrist_1, wrist_2, wrist_3]: [f64; 4],
-        most_speed_deg: [f64; JOINTS],
-    ) -> Self {
+    const fn new(model: UrModel, series: UrSeries, arm: &UrArm) -> Self {
         Self {
             model,
             series,
-            lengths: [0.0, upper_arm, forearm, 0.0, 0.0, 0.0],
-            offsets: [shoulder, 0.0, 0.0, wrist_1, wrist_2, wrist_3],
-            most_speed_deg,
+            lengths: arm.all_lengths_m(),
+            offsets: arm.all_offsets_m(),
+            most_speed_deg: arm.speeds_deg_per_s,
         }
     }
 

@@ -110,7 +110,7 @@ pub use monitor::{
 pub use reason::Reason;
 pub use robot::{
     Body, DhConvention, DhRow, Joint, JointKind, JointLimits, Mimic, Robot, RobotBuilder,
-    RobotError,
+    RobotError, UrArm,
 };
 pub use settings::{Border, ModeRule, Recursion, Settings};
 pub use shape::{Capsule, Closest, Cuboid, Cylinder, HalfSpace, Shape, Sphere};

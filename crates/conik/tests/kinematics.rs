@@ -64,6 +64,38 @@ fn tool_position_is_in_the_base_frame_of_the_paper() {
     assert_near(tool, [-0.5701, -0.3658, 0.4719], 1e-4);
 }
 
+/// The same point with the maker's lengths, in both base frames that UR arms have.
+#[test]
+fn base_of_the_controller_and_base_link_of_the_urdf_are_half_a_turn_apart() {
+    for name in [
+        "ur3", "ur5", "ur10", "ur3e", "ur5e", "ur10e", "ur16e", "ur20", "ur30",
+    ] {
+        let robot = Robot::builtin(name).expect("built in");
+        let frame = |link: &str| robot.frame(link).expect(link);
+        let mut kinematics = Kinematics::new(&robot);
+        kinematics.update(&[0.3, -1.0, 0.7, 0.2, 0.5, 0.1]);
+        let seen_from = |link: &str| {
+            let tool = kinematics.world_from(frame("tool0"));
+            kinematics.world_from(frame(link)).untransform(tool.origin)
+        };
+        let (in_base, in_base_link) = (seen_from("base"), seen_from("base_link"));
+        assert_eq!(in_base, kinematics.world_from(Frame::Tool).origin);
+        assert_eq!(
+            in_base_link,
+            Vec3::new(-in_base.x, -in_base.y, in_base.z),
+            "{name}"
+        );
+        if name == "ur5" {
+            assert_near(in_base_link, [0.5703, 0.3663, 0.4725], 1e-4);
+        }
+        // The flange of the URDF has its x axis where the tool has its z axis.
+        let (flange, tool) = (frame("flange"), frame("tool0"));
+        let (flange, tool) = (kinematics.world_from(flange), kinematics.world_from(tool));
+        assert_eq!(flange.origin, tool.origin);
+        assert_near(flange.x_axis, tool.z_axis.to_array(), 1e-15);
+    }
+}
+
 #[test]
 fn links_follow_the_product_of_their_homogeneous_matrices() {
     let rows = [DhRow::new(0.3, 0.4, 0.1), DhRow::new(-0.2, -1.3, 0.25)];

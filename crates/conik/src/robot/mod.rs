@@ -12,6 +12,7 @@ use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 
 pub use builder::{Body, Mimic, RobotBuilder};
+pub use builtin::UrArm;
 pub use dh::{DhConvention, DhRow};
 
 use crate::geometry::Pose;
