@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use clap::builder::NonEmptyStringValueParser;
+use clap::builder::{NonEmptyStringValueParser, PossibleValuesParser};
 use clap::{Args, Parser, Subcommand, ValueEnum, ValueHint};
 use clap_complete::Shell;
 
@@ -35,6 +35,8 @@ pub enum Command {
     Recover(RecoverArguments),
     /// Write a commented scenario to start from
     Init(InitArguments),
+    /// List the built-in robots, or the joints, limits and frames of one
+    Robots(RobotsArguments),
     /// Print the JSON Schema of the scenario file
     Schema,
     /// Print a completion script for a shell
@@ -243,4 +245,12 @@ pub struct InitArguments {
     /// Replace the file if it is there
     #[arg(long)]
     pub force: bool,
+}
+
+/// `conik robots`
+#[derive(Debug, Args)]
+pub struct RobotsArguments {
+    /// The robot to describe [default: a line for each robot]
+    #[arg(value_parser = PossibleValuesParser::new(conik::Robot::builtin_names()))]
+    pub name: Option<String>,
 }

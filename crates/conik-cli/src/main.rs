@@ -25,6 +25,7 @@ fn main() -> ExitCode {
         Command::Preflight(arguments) => commands::preflight::preflight(&arguments),
         Command::Recover(arguments) => commands::recover::recover(&arguments),
         Command::Init(arguments) => commands::init::init(&arguments),
+        Command::Robots(arguments) => commands::robots::robots(&arguments),
         Command::Schema => commands::schema::schema(),
         Command::Completions { shell } => commands::completions::completions(shell),
     };

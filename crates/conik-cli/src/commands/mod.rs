@@ -7,6 +7,7 @@ pub mod init;
 pub mod plot;
 pub mod preflight;
 pub mod recover;
+pub mod robots;
 pub mod run;
 pub mod schema;
 

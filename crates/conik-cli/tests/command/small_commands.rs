@@ -1,4 +1,4 @@
-//! `check`, `plot`, `schema`, `init`, `completions`, and no command at all.
+//! `check`, `plot`, `schema`, `init`, `robots`, `completions`, and no command at all.
 
 use std::fs;
 
@@ -145,12 +145,60 @@ fn template_passes_check_runs_and_is_not_overwritten() {
 }
 
 #[test]
+fn robots_are_listed_with_joints_and_source() {
+    let folder = empty_folder("robots");
+    let said = done(&folder, "robots");
+    assert!(said.lines().all(|l| l.chars().count() <= 80), "{said}");
+    let page = fs::read_to_string(repository().join("docs/robots.md")).unwrap();
+    for name in conik::Robot::builtin_names() {
+        let robot = conik::Robot::builtin(name).unwrap();
+        let mut lines = said.lines().map(|line| line.split_whitespace());
+        let line = lines.find(|words| words.clone().next() == Some(name));
+        let joints = line.and_then(|mut words| words.nth(1));
+        assert_eq!(joints, Some(robot.dof().to_string().as_str()), "{name}");
+        assert!(page.contains(&format!("`{name}`")), "{name}");
+    }
+}
+
+#[test]
+fn robots_describes_joints_limits_and_frames_of_one() {
+    let folder = empty_folder("one robot");
+    let about = |name: &str| {
+        let said = done(&folder, &format!("robots {name}"));
+        assert!(said.lines().all(|l| l.chars().count() <= 80), "{said}");
+        said
+    };
+    let ur3e = about("ur3e");
+    for part in [
+        "robot ur3e, 6 joints, tool `tool0`",
+        "Universal Robots",
+        "shoulder_pan_joint   revolute  -360.0…360.0°  ≤ 180.0°/s  –",
+        "wrist_3_joint        revolute  without end    ≤ 360.0°/s  –",
+        "base_link",
+    ] {
+        assert!(ur3e.contains(part), "`{part}` is missing:\n{ur3e}");
+    }
+    let panda = about("panda");
+    assert!(
+        panda.contains("panda_joint4  revolute  -176.0…-4.0°"),
+        "{panda}"
+    );
+    assert!(panda.contains("≤ 716.2°/s²") && panda.contains("hand_tcp"));
+
+    let said = say(&folder, "robots ur6");
+    assert_eq!(said.status, Some(2));
+    assert!(said.stderr.contains("ur5-paper"), "{said:#?}");
+}
+
+#[test]
 fn completions_know_the_commands() {
     let folder = empty_folder("completions");
     for shell in ["bash", "zsh", "fish"] {
         let script = done(&folder, &format!("completions {shell}"));
         assert!(
-            script.contains("mode-rule") && script.contains("emulate"),
+            ["mode-rule", "emulate", "robots"]
+                .iter()
+                .all(|word| script.contains(word)),
             "{shell}"
         );
     }
@@ -165,6 +213,7 @@ fn help_is_an_answer_and_its_absence_bad_usage() {
         "plot",
         "emulate",
         "init",
+        "robots",
         "schema",
         "completions",
     ] {
