@@ -23,7 +23,7 @@ use conik_sim::summarise::Summariser;
 use conik_sim::summary::{Outcome, Settings, Summary};
 use conik_ur::driver::recover::power_on;
 use conik_ur::driver::{UrArm, UrConfig};
-use conik_ur::emulator::{Emulator, EmulatorConfig, EmulatorError, Pace, Series};
+use conik_ur::emulator::{Emulator, EmulatorConfig, EmulatorError, Pace};
 use conik_ur::realtime::Realtime;
 
 use crate::arguments::RunArguments;
@@ -176,21 +176,20 @@ fn arm(
         }
         "ideal" => (Box::new(IdealArm::at(experiment.q0)), None),
         "emulator" => {
-            let series = if rate_hz <= Series::Cb3.rate_hz() {
-                Series::Cb3
-            } else {
-                Series::E
-            };
+            let model = &scenario.robot.model;
             let emulator = Emulator::start(EmulatorConfig {
-                rate_hz,
                 pace: if arguments.fast {
                     Pace::Lockstep
                 } else {
                     Pace::WallTime
                 },
-                ..EmulatorConfig::new(series, experiment.q0)
+                ..EmulatorConfig::for_robot(model, rate_hz, experiment.q0)
             })
             .map_err(|error| match error {
+                EmulatorError::JointCount(joints) => Failure::input(format!(
+                    "the emulator is a UR controller, whose arms have six joints, and {model} has \
+                     {joints}: run it with --robot ideal"
+                )),
                 EmulatorError::BadSetting { .. } => Failure::input(format!(
                     "{error}; another `rate_hz` or --rate-hz, or --robot ideal, would do"
                 )),

@@ -191,6 +191,35 @@ fn robots_describes_joints_limits_and_frames_of_one() {
 }
 
 #[test]
+fn robots_run_on_an_emulator_of_theirs_or_are_sent_to_the_ideal_arm() {
+    let folder = empty_folder("robots run");
+    let text = fs::read_to_string(paper("example2")).unwrap();
+    let run = |model: &str, q0: &str, robot: &str| {
+        let start = text.lines().find(|line| line.starts_with("q0_")).unwrap();
+        let text = text.replace(start, q0);
+        fs::write(folder.join("arm.toml"), text.replace("ur5-paper", model)).unwrap();
+        say(
+            &folder,
+            &format!("run arm.toml --robot {robot} --fast --duration-s 0.5 --out {model}"),
+        )
+    };
+    let said = run(
+        "ur10e",
+        "q0_deg = [-48, -158, -108, -90, -85, 0]",
+        "emulator",
+    );
+    assert!(said.stdout.contains("ur10e on emulated UR10e"), "{said:#?}");
+
+    let panda = "q0_deg = [0, -45, 0, -135, 0, 90, 45]";
+    let said = run("panda", panda, "emulator");
+    assert_eq!(said.status, Some(2));
+    assert!(said.stderr.contains("panda has 7") && said.stderr.contains("--robot ideal"));
+    let said = run("panda", panda, "ideal");
+    assert_ne!(said.status, Some(2), "{said:#?}");
+    assert!(said.stdout.contains("panda on ideal arm"), "{said:#?}");
+}
+
+#[test]
 fn completions_know_the_commands() {
     let folder = empty_folder("completions");
     for shell in ["bash", "zsh", "fish"] {

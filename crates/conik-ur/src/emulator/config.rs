@@ -119,6 +119,27 @@ impl EmulatorConfig {
         Self::of(arm.unwrap_or(&ArmFacts::ALL[0]), q0)
     }
 
+    /// The arm of a built-in robot, at `q0` [rad] and this rate [Hz], in wall time: `ur10e` is a UR10e.
+    ///
+    /// Where the name has no series (`ur5-paper`), or one that is not so fast, the rate says which; a robot
+    /// that is of another maker has a UR5.
+    pub fn for_robot(robot: &str, rate_hz: f64, q0: JointVec) -> Self {
+        let can = |arm: &&ArmFacts| rate_hz <= Series::of(arm).rate_hz();
+        let mut arms = ArmFacts::ALL.iter();
+        let named = arms.find(|arm| arm.name().eq_ignore_ascii_case(robot));
+        let (series, of_series) = if rate_hz <= Series::Cb3.rate_hz() {
+            (Series::Cb3, UrSeries::Cb3)
+        } else {
+            (Series::E, UrSeries::ESeries)
+        };
+        let nearest = || ArmFacts::of(UrModel::in_name(robot)?, of_series);
+        let config = match named.filter(can).or_else(nearest) {
+            Some(arm) => Self::of(arm, q0),
+            None => Self::new(series, q0),
+        };
+        Self { rate_hz, ..config }
+    }
+
     /// This arm at `q0` [rad], likewise.
     pub fn of(arm: &'static ArmFacts, q0: JointVec) -> Self {
         let series = Series::of(arm);
@@ -234,5 +255,29 @@ fn remedy(cause: &io::Error) -> &'static str {
         ErrorKind::AddrNotAvailable => "; listen on an address of this computer",
         ErrorKind::PermissionDenied => "; ports below 1024 are for the system",
         _ => "",
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn robot_has_the_arm_of_its_name_in_a_series_that_is_fast_enough() {
+        for (robot, rate_hz, arm) in [
+            ("ur5-paper", 125.0, "UR5"),
+            ("ur5-paper", 500.0, "UR5e"),
+            ("ur10e", 125.0, "UR10e"),
+            ("ur10", 125.0, "UR10"),
+            ("ur10", 250.0, "UR10e"),
+            ("ur30", 125.0, "UR30"),
+            ("mine", 125.0, "UR5"),
+            ("mine", 126.0, "UR5e"),
+        ] {
+            let config = EmulatorConfig::for_robot(robot, rate_hz, JointVec::zeros(6));
+            assert_eq!(config.arm.name(), arm, "{robot} at {rate_hz} Hz");
+            assert_eq!(config.rate_hz, rate_hz);
+            assert_eq!(config.series, Series::of(config.arm));
+        }
     }
 }
