@@ -169,7 +169,7 @@ def universal_robots():
 
 def franka():
     """`kinematics.yaml`, `joint_limits.yaml` and `franka_hand.xacro` of `franka_description`; accelerations:
-    `rate_limiting.h` of libfranka 0.9 (Panda) and 0.15 (FR3)."""
+    `rate_limiting.h` of libfranka 0.9 (Panda) and of later ones (FR3)."""
     placements = [
         ([0, 0, 0.333], [0, 0, 0]),
         ([0, 0, 0], [-HALF, 0, 0]),
