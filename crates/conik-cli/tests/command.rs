@@ -14,4 +14,5 @@ mod command {
     mod small_commands;
     mod strangers;
     mod trouble;
+    mod urdf;
 }

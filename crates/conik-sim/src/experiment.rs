@@ -2,15 +2,15 @@
 
 use conik::{
     Controller, ControllerError, Coordinate, Distance, FieldOfView, Interval, JointPosition,
-    JointVec, ModeOrder, Position, Robot, RobotError, Settings, Stack, StackError, Task, TaskId,
-    TooManyJoints, Vec3, Waypoints,
+    JointVec, ModeOrder, Position, Robot, Settings, Stack, StackError, Task, TaskId, TooManyJoints,
+    Vec3, Waypoints,
 };
 
 use crate::joint_limits::limited_robot;
 use crate::mover::Mover;
 use crate::scenario::{
-    Axis, Border, Control, Damping, DampingRule, GoalConfig, ModeRule, Recursion, Scenario,
-    TaskConfig, TaskKind,
+    Axis, Border, Control, Damping, DampingRule, DescriptionError, GoalConfig, ModeRule, Recursion,
+    Scenario, TaskConfig, TaskKind,
 };
 
 /// A scenario made ready to run.
@@ -39,7 +39,7 @@ pub struct Experiment {
 pub enum ExperimentError {
     /// The robot is unknown or unusable.
     #[error(transparent)]
-    Robot(#[from] RobotError),
+    Robot(#[from] DescriptionError),
     /// The start has too many joints.
     #[error(transparent)]
     Start(#[from] TooManyJoints),

@@ -1,9 +1,10 @@
 //! Limits of the joints: those of the model or of the scenario, and the sets that keep the positions.
 
-use conik::{Robot, RobotError};
+use conik::Robot;
 
 use crate::scenario::{
-    Damping, GoalConfig, LimitsConfig, RobotConfig, Scenario, TaskConfig, TaskKind,
+    Damping, DescriptionError, GoalConfig, LimitsConfig, RobotConfig, Scenario, TaskConfig,
+    TaskKind,
 };
 
 /// How the names of the sets begin that keep the joints within their position limits.
@@ -34,14 +35,14 @@ impl Scenario {
 }
 
 /// The model, with the scenario's limits in the place of its own.
-pub(crate) fn limited_robot(config: &RobotConfig) -> Result<Robot, RobotError> {
-    let model = Robot::builtin(&config.model)?;
+pub(crate) fn limited_robot(config: &RobotConfig) -> Result<Robot, DescriptionError> {
+    let model = config.described()?;
     let LimitsConfig {
         position_limits_rad,
         speed_limits_rad_per_s,
         acceleration_limits_rad_per_s2,
     } = &config.limits;
-    model.with_limits(|index, joint| {
+    let limited = model.with_limits(|index, joint| {
         let mut limits = joint.limits;
         if let Some(positions) = position_limits_rad {
             let pair = positions.get(index).copied().flatten();
@@ -54,7 +55,8 @@ pub(crate) fn limited_robot(config: &RobotConfig) -> Result<Robot, RobotError> {
             limits.acceleration = accelerations.get(index).copied();
         }
         limits
-    })
+    })?;
+    Ok(limited)
 }
 
 #[cfg(test)]

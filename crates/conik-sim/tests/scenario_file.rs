@@ -38,7 +38,7 @@ impl Drop for TemporaryFile {
 #[test]
 fn the_papers_second_example_reads_as_written() {
     let scenario = Scenario::load(example(2)).expect("it is right");
-    assert_eq!(scenario.robot.model, "ur5-paper");
+    assert_eq!(scenario.robot.name(), "ur5-paper");
     assert_eq!(scenario.robot.q0_rad[0], (-48.0_f64).to_radians());
     assert_eq!(scenario.control.mode_rule, ModeRule::Paper);
     assert_eq!(scenario.control.exclusive, [["obstacle_a", "obstacle_b"]]);

@@ -91,7 +91,7 @@ const CASES: &[Case] = &[
     case("model = \"ur5-paper\"", "model = \"ur5_paper\"", "robot.model", 3, &["did you mean \"ur5-paper\""]),
     case("model = \"ur5-paper\"", "", "robot.model", 2, &["missing", "model = \"ur5-paper\""]),
     case("model = \"ur5-paper\"", "model = 5", "robot.model", 3, &["expected text"]),
-    case("model = \"ur5-paper\"", "urdf = \"arm.urdf\"", "robot.urdf", 3, &["does not have `urdf` yet", "built-in"]),
+    case("model = \"ur5-paper\"", "urdf = \"arm.urdf\"", "robot.urdf", 3, &["arm.urdf: cannot be read", "path of a URDF file"]),
     case(Q0, "", "robot.q0_deg", 2, &["missing", "q0_deg = ["]),
     case(Q0, "q0_deg = [1, 2, 3]", "robot.q0_deg", 4, &["has 6 joints, found 3 numbers", "wrist_3_joint"]),
     case(Q0, "q0_rad = [1, 2, 3, 4, 5, 6, 7]", "robot.q0_rad", 4, &["has 6 joints, found 7"]),

@@ -184,6 +184,25 @@ fn schema_and_reader_refuse_the_same_mistakes() {
     }
 }
 
+#[test]
+fn schema_and_reader_refuse_the_same_descriptions_of_robots() {
+    let model = "model = \"ur5-paper\"";
+    for bad in [
+        "urdf = 1".to_owned(),
+        format!("{model}\nurdf = \"arm.urdf\""),
+        format!("{model}\nbase = \"a\""),
+        format!("{model}\ntool = [\"a\"]"),
+        format!("{model}\nbase_rpy_deg = [0, 0]"),
+    ] {
+        let text = GOOD.replacen(model, &bad, 1);
+        assert!(!is_valid(&text), "the schema allows {bad:?}");
+        assert!(
+            Scenario::from_toml(&text).is_err(),
+            "the reader allows {bad:?}"
+        );
+    }
+}
+
 /// The keys that the reader lists where a key is unknown.
 fn keys_of_reader(text: &str) -> BTreeSet<String> {
     let errors = Scenario::from_toml(text).expect_err("there is an unknown key");

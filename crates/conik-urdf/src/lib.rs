@@ -45,6 +45,7 @@ use conik::Robot;
 
 pub use error::{Place, UrdfError};
 pub use note::Note;
+pub use pose::turned;
 
 /// From where to where a description is read.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]

@@ -21,9 +21,9 @@ pub(crate) fn origin(of: &Element) -> Result<Pose, UrdfError> {
     })
 }
 
-/// R = Rz(yaw) · Ry(pitch) · Rx(roll): roll about x first, all about the axes that stand still
-/// (URDF specification, "origin").
-pub(crate) fn turned([roll, pitch, yaw]: [f64; 3]) -> Pose {
+/// A frame turned by roll, pitch and yaw [rad]: R = Rz(yaw) · Ry(pitch) · Rx(roll), about x first, all about
+/// the axes that stand still (URDF specification, "origin").
+pub fn turned([roll, pitch, yaw]: [f64; 3]) -> Pose {
     let ((sr, cr), (sp, cp), (sy, cy)) = (sin_cos(roll), sin_cos(pitch), sin_cos(yaw));
     Pose {
         x_axis: Vec3::new(cy * cp, sy * cp, -sp),

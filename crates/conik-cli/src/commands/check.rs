@@ -35,7 +35,7 @@ fn robot(scenario: &Scenario, experiment: &Experiment, findings: &Findings) -> S
         .join(", ");
     let mut text = format!(
         "robot {}, tool at ({tool}) m at the start\n",
-        scenario.robot.model
+        scenario.robot.name()
     );
     for (i, (joint, q)) in experiment
         .robot
@@ -45,33 +45,54 @@ fn robot(scenario: &Scenario, experiment: &Experiment, findings: &Findings) -> S
         .enumerate()
     {
         let name = &joint.name;
+        let (per_unit, unit) = unit(joint);
         text += &format!(
-            "  {} {name:<22} starts at {:8.3}°{}\n",
+            "  {} {name:<22} starts at {:8.3}{unit}{}\n",
             i + 1,
-            q.to_degrees(),
+            q * per_unit,
             limits(joint)
         );
+    }
+    let notes = scenario.robot.notes();
+    if !notes.is_empty() {
+        text += &format!("notes on {}:\n", scenario.robot.name());
+    }
+    for note in notes {
+        text += &wrapped("  - ", &note);
     }
     text + "\n"
 }
 
-/// What a joint must not exceed: `, -90.0…90.0°, at most 180.0°/s`.
-fn limits(joint: &Joint) -> String {
-    let (per_unit, unit) = match joint.kind {
+/// In what positions of a joint are shown, and how many of it are in a radian or metre.
+fn unit(joint: &Joint) -> (f64, &'static str) {
+    match joint.kind {
         JointKind::Revolute => (1_f64.to_degrees(), "°"),
         JointKind::Prismatic => (1.0, " m"),
-    };
+    }
+}
+
+/// What a joint must not exceed: `, -90.0…90.0°, at most 180.0°/s`.
+fn limits(joint: &Joint) -> String {
+    let (per_unit, unit) = unit(joint);
     let JointLimits {
         position,
         speed,
         acceleration,
     } = joint.limits;
+    let digits = match joint.kind {
+        JointKind::Revolute => 1,
+        JointKind::Prismatic => 3,
+    };
     let mut text = String::new();
     if let Some((min, max)) = position {
-        text += &format!(", {:.1}…{:.1}{unit}", min * per_unit, max * per_unit);
+        text += &format!(
+            ", {:.digits$}…{:.digits$}{unit}",
+            min * per_unit,
+            max * per_unit
+        );
     }
     if let Some(limit) = speed {
-        text += &format!(", ≤ {:.1}{unit}/s", limit * per_unit);
+        text += &format!(", ≤ {:.digits$}{unit}/s", limit * per_unit);
     }
     if let Some(limit) = acceleration {
         text += &format!(", ≤ {:.0}{unit}/s²", limit * per_unit);

@@ -10,6 +10,7 @@ pub mod recover;
 pub mod robots;
 pub mod run;
 pub mod schema;
+mod ur_robot;
 
 use std::io::{self, Write};
 use std::process::ExitCode;

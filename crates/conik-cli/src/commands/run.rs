@@ -162,6 +162,9 @@ fn arm(
     experiment: &Experiment,
 ) -> Result<Driven, Failure> {
     let rate_hz = scenario.control.rate_hz;
+    if arguments.robot != "ideal" {
+        super::ur_robot::refuse_others(&arguments.robot, scenario, &experiment.robot)?;
+    }
     let (arm, emulator): (Box<dyn Arm + Send>, _) = match arguments.robot.as_str() {
         arm @ ("ideal" | "emulator") if arguments.from_here => {
             return Err(Failure::input(format!(
@@ -176,7 +179,7 @@ fn arm(
         }
         "ideal" => (Box::new(IdealArm::at(experiment.q0)), None),
         "emulator" => {
-            let model = &scenario.robot.model;
+            let model = experiment.robot.name();
             let emulator = Emulator::start(EmulatorConfig {
                 pace: if arguments.fast {
                     Pace::Lockstep
@@ -226,7 +229,7 @@ fn arm(
             if let Some(settings) = &scenario.ur {
                 config.apply(settings);
             }
-            config.robot = UrModel::in_name(&scenario.robot.model);
+            config.robot = UrModel::in_name(experiment.robot.name());
             config.dry_run = arguments.dry_run;
             config.check_host().map_err(Failure::input)?;
             config

@@ -16,6 +16,9 @@ fn gallery() -> PathBuf {
 fn run(test: &str, name: &str, change: impl FnOnce(String) -> String) -> Value {
     let folder = empty_folder(&format!("gallery {test} {name}"));
     let text = fs::read_to_string(gallery().join(name)).unwrap();
+    // The files that it names stay where they are.
+    let robots = repository().join("robots");
+    let text = text.replace("../../robots", robots.to_str().unwrap());
     fs::write(folder.join("scenario.toml"), change(text)).unwrap();
     done(&folder, "run scenario.toml --robot ideal --quiet --out .");
     summary(&folder)

@@ -9,8 +9,8 @@ use std::time::Duration;
 use conik_sim::cycle_times::{CycleSummary, CycleTimes};
 use conik_sim::monitors::{JointMonitor, Monitors, Sighting, Verdict};
 use conik_sim::scenario::{
-    Border, Control, Damping, GoalConfig, LimitsConfig, ModeRule, Recursion, RobotConfig, Scenario,
-    TaskConfig, TaskKind,
+    Border, Control, Damping, GoalConfig, LimitsConfig, ModeRule, PlacesConfig, Recursion,
+    RobotConfig, RobotSource, Scenario, TaskConfig, TaskKind,
 };
 use conik_sim::summary::{
     FORMAT, ModeChange, Outcome, Properties, Property, Settings, StepTime, StepWork, Summary,
@@ -295,7 +295,10 @@ impl Invention {
                     title: Some(self.title.clone()),
                     robot: RobotConfig {
                         limits: LimitsConfig::default(),
-                        model: "ur5-paper".into(),
+                        source: RobotSource::Model {
+                            model: "ur5-paper".into(),
+                        },
+                        places: PlacesConfig::default(),
                         q0_rad: vec![0.0; self.joints],
                     },
                     control: Control {

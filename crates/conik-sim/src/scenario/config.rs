@@ -4,6 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::damping::Damping;
 use super::motion::Motion;
+use super::robot_source::{PlacesConfig, RobotSource};
 use super::ur::UrSettings;
 
 /// One run: a robot, a start, the settings of the controller and the tasks in decreasing priority.
@@ -26,8 +27,12 @@ pub struct Scenario {
 /// The robot and where it starts.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct RobotConfig {
-    /// Name of a built-in robot.
-    pub model: String,
+    /// What describes it.
+    #[serde(flatten)]
+    pub source: RobotSource,
+    /// Where it stands, and where on it the tool is.
+    #[serde(flatten)]
+    pub places: PlacesConfig,
     /// Joint positions at the start [rad] (scenario files may say `q0_deg` instead).
     pub q0_rad: Vec<f64>,
     /// Limits that override the model's.

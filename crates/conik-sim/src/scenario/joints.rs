@@ -42,7 +42,17 @@ impl Table<'_> {
         match self.value(key) {
             Some(value) if is_one(&value) => self.entry(key, |value| {
                 let number = value.number(&key.range(), found)?;
-                Some(vec![number; robot?.joint_names.len()])
+                let robot = robot?;
+                if robot.slides.contains(&true) && robot.slides.contains(&false) {
+                    found.add(
+                        value.span(),
+                        &*value.path,
+                        "one number for joints that turn and joints that slide",
+                        format!("give one for each joint: {}", robot.joint_names.join(", ")),
+                    );
+                    return None;
+                }
+                Some(vec![number; robot.joint_names.len()])
             }),
             _ => self.joint_numbers(key, robot, found),
         }

@@ -88,6 +88,8 @@ pub(super) enum Holds {
     Choice(fn() -> Vec<(&'static str, &'static str)>),
     /// One of a fixed list of names, or a number.
     ChoiceOrNumber(fn() -> Vec<(&'static str, &'static str)>, Range),
+    /// A name, or a list of one or more.
+    NameOrNames,
     /// Groups of task names.
     NameGroups,
     /// A table of its own, `[name]`.
@@ -121,6 +123,7 @@ impl Holds {
             Self::Points(_) => "a list of points, each of three numbers",
             Self::Joint => "the number of a joint or its name",
             Self::ChoiceOrNumber(..) => "text in quotes, or a number",
+            Self::NameOrNames => "text in quotes, or a list of it",
             Self::NameGroups => "a list of groups, each a list of task names",
             Self::Table => "a table",
             Self::Tables => "a list of tables",

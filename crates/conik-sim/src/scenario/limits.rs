@@ -5,7 +5,7 @@ use super::joints::Pair;
 use super::key::Key;
 use super::keys;
 use super::mistake::Mistakes;
-use super::robot::in_one_unit;
+use super::robot::{in_one_unit, of_joint};
 use super::robots::RobotFacts;
 use super::table::Table;
 
@@ -50,10 +50,10 @@ fn read_positions(
     let in_rad = table.joint_pairs(rad, robot, found);
     in_one_unit(table, deg, in_deg, rad, in_rad, found)
         .map(|(pairs, to_rad)| {
-            let pairs = pairs.into_iter();
+            let pairs = pairs.into_iter().enumerate();
             Some(
                 pairs
-                    .map(|pair| pair.map(|pair| pair.map(to_rad)))
+                    .map(|(joint, pair)| pair.map(|pair| pair.map(of_joint(robot, joint, to_rad))))
                     .collect(),
             )
         })
@@ -70,6 +70,12 @@ fn read_most(
     let in_deg = table.number_or_joint_numbers(deg, robot, found);
     let in_rad = table.number_or_joint_numbers(rad, robot, found);
     in_one_unit(table, deg, in_deg, rad, in_rad, found)
-        .map(|(most, to_rad)| Some(most.into_iter().map(to_rad).collect()))
+        .map(|(most, to_rad)| {
+            let most = most.into_iter().enumerate();
+            Some(
+                most.map(|(joint, most)| of_joint(robot, joint, to_rad)(most))
+                    .collect(),
+            )
+        })
         .or(None)
 }

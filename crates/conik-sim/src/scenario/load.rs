@@ -69,7 +69,8 @@ impl Scenario {
     pub fn load(path: impl AsRef<Path>) -> Result<Self, LoadError> {
         let path = path.as_ref();
         let text = read_text(path)?;
-        Self::from_toml(&text).map_err(|errors| LoadError::Mistakes {
+        let folder = path.parent().unwrap_or(Path::new(""));
+        Self::from_toml_in(folder, &text).map_err(|errors| LoadError::Mistakes {
             path: path.to_owned(),
             text,
             errors,

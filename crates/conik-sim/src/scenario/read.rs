@@ -1,11 +1,14 @@
 //! Reading a scenario: the tables of the file from top to bottom, then what concerns all tasks.
 
+use std::path::Path;
+
 use super::config::{LimitsConfig, Scenario};
 use super::control::{self, ReadControl};
 use super::hierarchy;
 use super::keys;
 use super::mistake::{Mistakes, ScenarioErrors};
 use super::robot;
+use super::robot_source;
 use super::robots::RobotFacts;
 use super::syntax;
 use super::table::{Entry, Table};
@@ -14,19 +17,25 @@ use super::ur;
 
 /// What a task must know of the tables above it; `None` where they are wrong.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Surroundings {
-    pub(super) robot: Option<&'static RobotFacts>,
+pub(super) struct Surroundings<'r> {
+    pub(super) robot: Option<&'r RobotFacts>,
     pub(super) rate_hz: Option<f64>,
 }
 
 impl Scenario {
-    /// Reads the text of a scenario file.
+    /// Reads the text of a scenario file. A URDF file that it names is looked for in the current
+    /// directory.
     ///
     /// # Errors
     ///
     /// Every independent mistake in the text, each with its place, its key, what is wrong and what
     /// would be right. Mistakes of TOML syntax hide all others.
     pub fn from_toml(text: &str) -> Result<Self, ScenarioErrors> {
+        Self::from_toml_in(Path::new(""), text)
+    }
+
+    /// As [`from_toml`](Self::from_toml); a URDF file is looked for in `folder`.
+    pub(super) fn from_toml_in(folder: &Path, text: &str) -> Result<Self, ScenarioErrors> {
         let entries = syntax::parse(text)?;
         let file = Table {
             path: String::new(),
@@ -34,7 +43,7 @@ impl Scenario {
             entries: &entries,
         };
         let mut found = Mistakes::new(text);
-        let scenario = read_file(&file, &mut found);
+        let scenario = read_file(&file, folder, &mut found);
         found.into_result(scenario)
     }
 
@@ -56,7 +65,7 @@ fn position_limits(limits: &LimitsConfig, robot: Option<&RobotFacts>) -> usize {
     }
 }
 
-fn read_file(file: &Table, found: &mut Mistakes) -> Option<Scenario> {
+fn read_file(file: &Table, folder: &Path, found: &mut Mistakes) -> Option<Scenario> {
     file.refuse_unknown_keys(&keys::FILE.iter().copied(), |_| None, found);
     let title = match file.text(&keys::TITLE, found) {
         Entry::Absent(_) => Some(None),
@@ -64,10 +73,12 @@ fn read_file(file: &Table, found: &mut Mistakes) -> Option<Scenario> {
     };
 
     let robot_table = file.table(&keys::ROBOT, found).required(file, found);
-    let facts = robot_table
+    let named = robot_table
         .as_ref()
-        .and_then(|table| robot::read_model(table, found));
-    let robot = robot_table.and_then(|table| robot::read(&table, facts, found));
+        .and_then(|table| robot_source::read(table, folder, found));
+    let (source, facts) = named.unzip();
+    let facts = facts.as_ref();
+    let robot = robot_table.and_then(|table| robot::read(&table, source, facts, found));
 
     let control = match file.table(&keys::CONTROL, found) {
         Entry::Absent(_) => ReadControl::default(),

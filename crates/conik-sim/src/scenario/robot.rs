@@ -5,60 +5,24 @@ use super::key::Key;
 use super::keys;
 use super::limits;
 use super::mistake::Mistakes;
-use super::robots::{RobotFacts, known_robots};
-use super::table::{Entry, Table, unknown_name};
-
-/// What is known of the robot that the table names; `None` if it names none that is known.
-pub(super) fn read_model(table: &Table, found: &mut Mistakes) -> Option<&'static RobotFacts> {
-    let model = match table.text(&keys::MODEL, found) {
-        Entry::Absent(_) => {
-            // A robot described otherwise is not a forgotten model: the key says what is wrong.
-            let described = keys::ROBOT_KEYS_NOT_YET
-                .iter()
-                .any(|key| table.entries.contains_key(*key));
-            if !described {
-                table.missing(&keys::MODEL, found);
-            }
-            return None;
-        }
-        entry => entry.given()?,
-    };
-    let robot = known_robots().iter().find(|robot| robot.name == model);
-    if robot.is_none() {
-        let (what, help) = unknown_name(
-            model,
-            known_robots().iter().map(|robot| robot.name.as_str()),
-        );
-        let what = what.replace("unknown name", "unknown robot");
-        found.add(
-            table.span_of(&keys::MODEL),
-            table.path_of(&keys::MODEL),
-            what,
-            help,
-        );
-    }
-    robot
-}
+use super::robot_source::{PlacesConfig, RobotSource};
+use super::robots::RobotFacts;
+use super::table::{Entry, Table};
 
 /// Reads the whole table, once it is known which robot it names.
 pub(super) fn read(
     table: &Table,
+    source: Option<RobotSource>,
     robot: Option<&RobotFacts>,
     found: &mut Mistakes,
 ) -> Option<RobotConfig> {
-    let not_yet = |name: &str| {
-        keys::ROBOT_KEYS_NOT_YET.contains(&name).then(|| {
-            (
-                format!("this version does not have `{name}` yet"),
-                format!("it has built-in robots: {}", keys::MODEL.write_example()),
-            )
-        })
-    };
-    table.refuse_unknown_keys(&keys::ROBOT_KEYS.iter().copied(), not_yet, found);
+    table.refuse_unknown_keys(&keys::ROBOT_KEYS.iter().copied(), |_| None, found);
     let q0_rad = read_start(table, robot, found);
     let limits = limits::read(table, robot, found);
+    let places = read_places(table, found);
     Some(RobotConfig {
-        model: robot?.name.clone(),
+        source: source?,
+        places: places?,
         q0_rad: q0_rad?,
         limits: limits?,
     })
@@ -70,11 +34,39 @@ fn read_start(table: &Table, robot: Option<&RobotFacts>, found: &mut Mistakes) -
     let in_rad = table.joint_numbers(&keys::Q0_RAD, robot, found);
     let given = in_one_unit(table, &keys::Q0_DEG, in_deg, &keys::Q0_RAD, in_rad, found);
     let (positions, in_rad) = given.required(table, found)?;
-    Some(positions.into_iter().map(in_rad).collect())
+    let positions = positions.into_iter().enumerate();
+    Some(
+        positions
+            .map(|(joint, position)| of_joint(robot, joint, in_rad)(position))
+            .collect(),
+    )
+}
+
+/// What makes radians of an angle of a joint; lengths of one that slides are in [m] under every key.
+pub(super) fn of_joint(robot: Option<&RobotFacts>, joint: usize, in_rad: ToRadians) -> ToRadians {
+    let slides = robot.and_then(|robot| robot.slides.get(joint));
+    match slides {
+        Some(true) => |length| length,
+        _ => in_rad,
+    }
+}
+
+/// Where the robot stands, and where on it the tool is.
+fn read_places(table: &Table, found: &mut Mistakes) -> Option<PlacesConfig> {
+    let mut vector = |key| table.vector(key, found).map(Some).or(None);
+    let (base_position_m, base_rpy_deg) =
+        (vector(&keys::BASE_POSITION_M), vector(&keys::BASE_RPY_DEG));
+    let (tool_offset_m, tool_rpy_deg) = (vector(&keys::TOOL_OFFSET_M), vector(&keys::TOOL_RPY_DEG));
+    Some(PlacesConfig {
+        base_position_m: base_position_m?,
+        base_rpy_deg: base_rpy_deg?,
+        tool_offset_m: tool_offset_m?,
+        tool_offset_rpy_deg: tool_rpy_deg?,
+    })
 }
 
 /// Makes radians of an angle in the unit in which it was given.
-type ToRadians = fn(f64) -> f64;
+pub(super) type ToRadians = fn(f64) -> f64;
 
 /// What stands under one of two keys, in degrees or in radians, with what makes it radians.
 pub(super) fn in_one_unit<T>(

@@ -1,4 +1,5 @@
-//! The keys of `[robot]`: the model, where it starts, and limits that override the model's.
+//! The keys of `[robot]`: what describes it, where it stands and starts, and limits that override the
+//! description's.
 
 use super::key::{Holds, Key, Range};
 
@@ -10,6 +11,13 @@ const START_DEG: f64 = 57_000.0;
 /// `[robot]`.
 pub(super) const ROBOT_KEYS: &[&Key] = &[
     &MODEL,
+    &URDF,
+    &BASE,
+    &TOOL,
+    &BASE_POSITION_M,
+    &BASE_RPY_DEG,
+    &TOOL_OFFSET_M,
+    &TOOL_RPY_DEG,
     &Q0_DEG,
     &Q0_RAD,
     &POSITION_LIMITS_DEG,
@@ -31,21 +39,73 @@ pub(super) const IN_TWO_UNITS: &[(&Key, &Key)] = &[
 pub(super) const MODEL: Key = Key::new(
     "model",
     "",
-    "Name of a built-in robot",
+    "Name of a built-in robot (either this or `urdf`)",
     Holds::Robot,
     r#""ur5-paper""#,
+);
+pub(super) const URDF: Key = Key::new(
+    "urdf",
+    "",
+    "Path of a URDF file, from where the scenario's file is (either this or `model`)",
+    Holds::Text,
+    r#""arm.urdf""#,
+);
+pub(super) const BASE: Key = Key::new(
+    "base",
+    "",
+    "The link of the URDF file that stands still; without it the root of its tree",
+    Holds::Text,
+    r#""base_link""#,
+);
+pub(super) const TOOL: Key = Key::new(
+    "tool",
+    "",
+    "The link of the URDF file that is the tool; of a list, the first is, and the joints on the way \
+     to the others move too. Only a tree with one end needs none",
+    Holds::NameOrNames,
+    r#""tool0""#,
+);
+pub(super) const BASE_POSITION_M: Key = Key::new(
+    "base_position_m",
+    "m",
+    "Where the base stands in the world that tasks are expressed in; without it at the origin",
+    Holds::Vector(Range::SANE),
+    "[0, 0, 0.8]",
+);
+pub(super) const BASE_RPY_DEG: Key = Key::new(
+    "base_rpy_deg",
+    "deg",
+    "How the base is turned in the world: roll, pitch and yaw, about the world's x, y and z in turn",
+    Holds::Vector(Range::within(START_DEG)),
+    "[0, 0, 90]",
+);
+pub(super) const TOOL_OFFSET_M: Key = Key::new(
+    "tool_offset_m",
+    "m",
+    "Where the tool's tip is in the frame of the link that carries it; the tip becomes the tool",
+    Holds::Vector(Range::SANE),
+    "[0, 0, 0.15]",
+);
+pub(super) const TOOL_RPY_DEG: Key = Key::new(
+    "tool_offset_rpy_deg",
+    "deg",
+    "How the tip is turned in the frame of that link: roll, pitch and yaw, about its x, y and z in turn",
+    Holds::Vector(Range::within(START_DEG)),
+    "[0, 90, 0]",
 );
 pub(super) const Q0_DEG: Key = Key::new(
     "q0_deg",
     "deg",
-    "Joint positions at the start, base to tool (either this or `q0_rad`)",
+    "Joint positions at the start, base to tool, those of sliding joints in m (either this or \
+     `q0_rad`)",
     Holds::JointNumbers(Range::within(START_DEG)),
     "[-48, -158, -108, -90, -85, 0]",
 );
 pub(super) const Q0_RAD: Key = Key::new(
     "q0_rad",
     "rad",
-    "Joint positions at the start, base to tool (either this or `q0_deg`)",
+    "Joint positions at the start, base to tool, those of sliding joints in m (either this or \
+     `q0_deg`)",
     Holds::JointNumbers(Range::within(START_RAD)),
     "[-0.84, -2.76, -1.88, -1.57, -1.48, 0]",
 );
@@ -92,6 +152,3 @@ pub(super) const ACCELERATION_LIMITS_RAD: Key = Key::new(
     Holds::NumberOrJointNumbers(Range::positive(START_RAD)),
     "4",
 );
-
-/// Keys of `[robot]` that a later version will have.
-pub(super) const ROBOT_KEYS_NOT_YET: &[&str] = &["urdf", "base", "tool"];

@@ -2,7 +2,7 @@
 
 use std::sync::LazyLock;
 
-use conik::Robot;
+use conik::{JointKind, Robot};
 
 /// What the reader of a scenario must know of a robot.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -11,6 +11,8 @@ pub struct RobotFacts {
     pub name: String,
     /// Names of the joints, base to tool.
     pub joint_names: Vec<String>,
+    /// Of each joint, whether it slides and has its positions in [m].
+    pub slides: Vec<bool>,
     /// How many of the joints have position limits, unless a scenario overrides them.
     pub position_limits: usize,
 }
@@ -19,19 +21,30 @@ static KNOWN: LazyLock<Vec<RobotFacts>> = LazyLock::new(|| {
     Robot::builtin_names()
         .iter()
         .filter_map(|name| Robot::builtin(name).ok())
-        .map(|robot| RobotFacts {
-            name: robot.name().to_owned(),
-            joint_names: robot.joint_names().map(str::to_owned).collect(),
-            position_limits: robot
-                .joints()
-                .iter()
-                .filter(|joint| joint.limits.position.is_some())
-                .count(),
-        })
+        .map(|robot| RobotFacts::of(&robot, robot.name()))
         .collect()
 });
 
-/// Every robot that a scenario may name.
+impl RobotFacts {
+    /// The facts of a robot that is called `name` in the file.
+    pub(super) fn of(robot: &Robot, name: &str) -> Self {
+        let joints = robot.joints();
+        Self {
+            name: name.to_owned(),
+            joint_names: robot.joint_names().map(str::to_owned).collect(),
+            slides: joints
+                .iter()
+                .map(|joint| joint.kind == JointKind::Prismatic)
+                .collect(),
+            position_limits: joints
+                .iter()
+                .filter(|joint| joint.limits.position.is_some())
+                .count(),
+        }
+    }
+}
+
+/// Every robot that a scenario may name as its model.
 pub fn known_robots() -> &'static [RobotFacts] {
     &KNOWN
 }

@@ -21,6 +21,15 @@ pub fn schema() -> Value {
         json!("http://json-schema.org/draft-07/schema#"),
     );
     set(&mut schema, "title", json!("Scenario of conik"));
+    // Of a robot from a file only the file knows how its joints are called.
+    let of_model = json!({ "properties": { "robot": { "required": [keys::MODEL.name] } } });
+    let known = json!({ "anyOf": [{ "type": "integer" }, { "enum": joint_names() }] });
+    set(&mut schema, "if", of_model);
+    set(
+        &mut schema,
+        "then",
+        json!({ "properties": { "task": { "items": { "properties": { "joint": known } } } } }),
+    );
     schema
 }
 
@@ -92,12 +101,16 @@ fn holds(key: &Key) -> Value {
         Holds::Points(range) => json!({ "type": "array", "items": vector(range), "minItems": 1 }),
         Holds::Joint => json!({ "anyOf": [
             { "type": "integer", "minimum": 1 },
-            { "type": "string", "enum": joint_names() },
+            { "type": "string" },
         ] }),
         Holds::Choice(values) => one_of(values()),
         Holds::ChoiceOrNumber(values, range) => {
             json!({ "anyOf": [one_of(values()), number(range)] })
         }
+        Holds::NameOrNames => json!({ "anyOf": [
+            { "type": "string" },
+            { "type": "array", "items": { "type": "string" }, "minItems": 1 },
+        ] }),
         Holds::NameGroups => json!({
             "type": "array",
             "items": {
@@ -149,7 +162,7 @@ fn joint_names() -> Vec<&'static str> {
 }
 
 fn robot() -> Value {
-    let mut schema = table(keys::ROBOT_KEYS, &[keys::MODEL.name]);
+    let mut schema = table(keys::ROBOT_KEYS, &[]);
     let start = json!([{ "required": ["q0_deg"] }, { "required": ["q0_rad"] }]);
     set(&mut schema, "oneOf", start);
     // As many numbers as the robot has joints. Where one number stands for all, it is no list.
@@ -163,14 +176,19 @@ fn robot() -> Value {
             })
             .collect();
         json!({
-            "if": { "properties": { "model": { "const": robot.name } } },
+            "if": { "properties": { "model": { "const": robot.name } }, "required": ["model"] },
             "then": { "properties": lists },
         })
     });
     let in_one_unit = keys::IN_TWO_UNITS
         .iter()
         .map(|(deg, rad)| json!({ "not": { "required": [deg.name, rad.name] } }));
-    let rules: Vec<_> = per_robot.chain(in_one_unit).collect();
+    let source = json!({ "oneOf": [{ "required": ["model"] }, { "required": ["urdf"] }] });
+    let of_urdf = json!({ "dependencies": { "base": ["urdf"], "tool": ["urdf"] } });
+    let rules: Vec<_> = per_robot
+        .chain(in_one_unit)
+        .chain([source, of_urdf])
+        .collect();
     set(&mut schema, "allOf", json!(rules));
     schema
 }

@@ -170,6 +170,26 @@ impl<'a> Table<'a> {
         self.entry(key, |value| value.text(found))
     }
 
+    /// A line of text, or a list of one or more.
+    pub(super) fn names(&self, key: &'static Key, found: &mut Mistakes) -> Entry<Vec<String>> {
+        self.entry(key, |value| {
+            if let Some(name) = value.toml.get_ref().as_str() {
+                return Some(vec![name.to_owned()]);
+            }
+            let members = value.members(key.holds.expected(), found)?;
+            if members.is_empty() {
+                let help = format!("leave it out, or {}", key.write_example());
+                found.add(value.span(), &*value.path, "the list is empty", help);
+                return None;
+            }
+            let names: Vec<_> = members.iter().map(|member| member.text(found)).collect();
+            names
+                .into_iter()
+                .map(|name| name.map(str::to_owned))
+                .collect()
+        })
+    }
+
     /// A number in the range that the key allows.
     pub(super) fn number(&self, key: &'static Key, found: &mut Mistakes) -> Entry<f64> {
         self.entry(key, |value| value.number(&key.range(), found))

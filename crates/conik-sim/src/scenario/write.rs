@@ -9,6 +9,7 @@ use super::config::{
 use super::damping;
 use super::key::Key;
 use super::keys;
+use super::robot_source::{PlacesConfig, RobotSource, UrdfConfig};
 use super::task_types;
 
 impl Scenario {
@@ -62,7 +63,36 @@ impl Lines {
 
 fn write_robot(robot: &RobotConfig, file: &mut Lines) {
     file.header(&keys::ROBOT);
-    file.line(keys::MODEL.name, &text(&robot.model));
+    match &robot.source {
+        RobotSource::Model { model } => file.line(keys::MODEL.name, &text(model)),
+        RobotSource::Urdf(UrdfConfig {
+            urdf, base, tool, ..
+        }) => {
+            file.line(keys::URDF.name, &text(urdf));
+            if let Some(base) = base {
+                file.line(keys::BASE.name, &text(base));
+            }
+            if !tool.is_empty() {
+                file.line(keys::TOOL.name, &list(tool.iter().map(|name| text(name))));
+            }
+        }
+    }
+    let PlacesConfig {
+        base_position_m,
+        base_rpy_deg,
+        tool_offset_m,
+        tool_offset_rpy_deg,
+    } = &robot.places;
+    for (key, place) in [
+        (&keys::BASE_POSITION_M, base_position_m),
+        (&keys::BASE_RPY_DEG, base_rpy_deg),
+        (&keys::TOOL_OFFSET_M, tool_offset_m),
+        (&keys::TOOL_RPY_DEG, tool_offset_rpy_deg),
+    ] {
+        if let Some(place) = place {
+            file.line(key.name, &vector(place));
+        }
+    }
     file.line(keys::Q0_RAD.name, &vector(&robot.q0_rad));
     let LimitsConfig {
         position_limits_rad,

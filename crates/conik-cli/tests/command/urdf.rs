@@ -1,0 +1,55 @@
+//! Robots from URDF files on the command line: what `check` notes, and who can drive them.
+
+use std::fs;
+
+use super::process::{empty_folder, repository, say};
+
+const SCENARIO: &str = "scenarios/gallery/urdf-rail-arm.toml";
+
+#[test]
+fn the_emulator_refuses_what_no_ur_arm_is() {
+    for robot in ["emulator", "127.0.0.1"] {
+        let arguments = format!("run {SCENARIO} --robot {robot} --out target/never");
+        let output = say(&repository(), &arguments);
+        let said = output.stderr;
+        assert_eq!(output.status, Some(2), "{said}");
+        let said = said.split_whitespace().collect::<Vec<_>>().join(" ");
+        for part in [
+            "six joints that turn",
+            "8 joints, of which 1 slide",
+            "--robot ideal",
+        ] {
+            assert!(said.contains(part), "{part}: {said}");
+        }
+    }
+}
+
+#[test]
+fn check_shows_joints_in_their_units_and_notes() {
+    let output = say(&repository(), &format!("check {SCENARIO}"));
+    let said = output.stdout;
+    let said = said.split_whitespace().collect::<Vec<_>>().join(" ");
+    for part in [
+        "1 rail starts at -0.600 m, -1.000…1.000 m, ≤ 0.500 m/s",
+        "2 shoulder_yaw starts at 20.000°",
+        "line 62: \"left_finger\", \"right_finger\": held still",
+    ] {
+        assert!(said.contains(part), "{part}: {said}");
+    }
+}
+
+#[test]
+fn mistakes_in_the_file_are_shown_with_its_own_line() {
+    let folder = empty_folder("urdf mistake");
+    let urdf = fs::read_to_string(repository().join("robots/rail-arm.urdf")).unwrap();
+    let urdf = urdf.replacen("type=\"prismatic\"", "type=\"sliding\"", 1);
+    fs::write(folder.join("rail-arm.urdf"), urdf).unwrap();
+    let scenario = fs::read_to_string(repository().join(SCENARIO)).unwrap();
+    let scenario = scenario.replace("../../robots/", "");
+    fs::write(folder.join("cell.toml"), scenario).unwrap();
+    let output = say(&folder, "check cell.toml");
+    assert_eq!(output.status, Some(2));
+    let said = output.stderr;
+    assert!(said.contains("rail-arm.urdf:18:"), "{said}");
+    assert!(said.contains("cell.toml:8:"), "{said}");
+}
