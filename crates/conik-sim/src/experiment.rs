@@ -65,7 +65,7 @@ impl Experiment {
         let mut waypoints = None;
         let mut movers = Vec::new();
         for task in &scenario.tasks {
-            let id = add_task(&mut stack, task)?;
+            let id = add_task(&mut stack, &robot, task)?;
             movers.extend(Mover::of(id, &task.kind));
             stack.setpoints().set_damping(id, damping(task.damping))?;
             if let GoalConfig::Set {
@@ -169,7 +169,11 @@ fn damping(config: Damping) -> conik::Damping {
     }
 }
 
-fn add_task(stack: &mut Stack, config: &TaskConfig) -> Result<TaskId, ExperimentError> {
+fn add_task(
+    stack: &mut Stack,
+    robot: &Robot,
+    config: &TaskConfig,
+) -> Result<TaskId, ExperimentError> {
     match config.kind {
         TaskKind::Position => add(stack, config, Position::of_tool()),
         TaskKind::Coordinate { axis } => {
@@ -186,7 +190,10 @@ fn add_task(stack: &mut Stack, config: &TaskConfig) -> Result<TaskId, Experiment
         }
         // Joints are counted from 1 in scenarios; 0 is refused by the stack as any other that the
         // robot does not have.
-        TaskKind::Joint { joint } => add(stack, config, JointPosition::of(joint.wrapping_sub(1))),
+        TaskKind::Joint { joint } => {
+            let task = JointPosition::of_robot(joint.wrapping_sub(1), robot);
+            add(stack, config, task)
+        }
     }
 }
 

@@ -101,6 +101,8 @@ fn lengths_stay_lengths_and_limits_become_sets() {
     let stack = experiment.controller.stack();
     let names: Vec<&str> = stack.iter().map(|(_, level)| level.name()).collect();
     assert_eq!(names, ["limit/waist", "limit/reach out", "p"]);
+    let units: Vec<&str> = stack.iter().map(|(_, level)| level.task().unit()).collect();
+    assert_eq!(units, ["rad", "m", "m"]);
     assert_eq!(experiment.robot.joints()[1].limits.speed, Some(0.2));
     let limits = "position_limits_deg = [[-90, 90], [0.1, 0.5], []]\nspeed_limits_deg_per_s = [90, 0.1, 180]";
     let own = SCENARIO.replace("[[task]]", &format!("{limits}\n[[task]]"));

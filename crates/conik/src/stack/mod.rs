@@ -133,7 +133,7 @@ impl Stack {
                 stack.high_priority += 1;
                 stack.levels.push(Level {
                     name: alloc::format!("limit/{}", joint.name),
-                    task: Box::new(JointPosition::of(index)),
+                    task: Box::new(JointPosition::of_robot(index, robot)),
                     goal: Goal::Set {
                         interval,
                         rates: BoundRates::default(),

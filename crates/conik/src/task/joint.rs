@@ -2,18 +2,31 @@
 
 use super::{JacobianMut, Task};
 use crate::kinematics::Kinematics;
-use crate::robot::Robot;
+use crate::robot::{JointKind, Robot};
 
 /// Position of one joint [rad, or m for a prismatic joint].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct JointPosition {
     index: usize,
+    slides: bool,
 }
 
 impl JointPosition {
     /// Position of joint `index`, counted from 0 at the base.
     pub const fn of(index: usize) -> Self {
-        Self { index }
+        Self {
+            index,
+            slides: false,
+        }
+    }
+
+    /// As [`of`](Self::of), of a joint of this robot: the unit is that of the joint.
+    pub fn of_robot(index: usize, robot: &Robot) -> Self {
+        let joint = robot.joints().get(index);
+        Self {
+            index,
+            slides: joint.is_some_and(|joint| joint.kind == JointKind::Prismatic),
+        }
     }
 }
 
@@ -43,7 +56,7 @@ impl Task for JointPosition {
     }
 
     fn unit(&self) -> &'static str {
-        "rad"
+        if self.slides { "m" } else { "rad" }
     }
 
     fn check(&self, robot: &Robot) -> Result<(), &'static str> {
