@@ -93,9 +93,9 @@ pub(crate) fn of_joints(
             notes.add(
                 &joint.element,
                 joint.name,
-                "held still: there is no joint of the name that it follows",
+                "held as if what it follows stood at 0: there is no joint of that name",
             );
-            return Role::Held(kind, 0.0);
+            return Role::Held(kind, offset);
         };
         if let Some(number) = numbers[leader] {
             let mimic = Mimic {

@@ -238,6 +238,20 @@ fn what_is_off_the_way_is_held_at_its_limit_nearest_to_0() {
 }
 
 #[test]
+fn what_follows_nothing_stands_at_its_offset_off_the_way() {
+    let text = include_str!("fixtures/gripper.urdf").replace("joint=\"left\"", "joint=\"lost\"");
+    let robot = read(&text, &options(None, &["palm"]))
+        .expect("it is right")
+        .robot;
+    let kinematics = Kinematics::new(&robot);
+    let pose = |link: &str| *kinematics.world_from(robot.frame(link).expect("a link"));
+    // 0.05 to the right, and by its offset of -0.1 to the left of that.
+    let tip = pose("palm").untransform(pose("right_tip").origin);
+    assert!((tip - Vec3::new(0.1, 0.05, 0.0)).norm() < 1e-15, "{tip:?}");
+    assert!(read(&text, &options(None, &["right_tip"])).is_err());
+}
+
+#[test]
 fn axes_along_those_of_the_frame_are_not_rounded() {
     // At q = 0 every entry is 0 or ±1 but the lengths, which are sums of what stands in the text.
     let text = include_str!("fixtures/gantry.urdf");
