@@ -1,5 +1,6 @@
 //! What `conik run` says on the terminal: a heading before, a summary after.
 
+use conik_cli::figure::quantity::wanted;
 use conik_cli::report::units::{limit, optional, quantity};
 use conik_sim::cycle_times::CycleSummary;
 use conik_sim::experiment::Experiment;
@@ -131,8 +132,11 @@ fn task_row(summary: &Summary, task: &TaskConfig) -> [String; 5] {
             count => format!("{count} waypoints"),
         },
         GoalConfig::Desired { desired, .. } => {
-            let values: Vec<String> = desired.iter().map(|value| limit(*value, unit)).collect();
-            format!("= {}", values.join(", "))
+            let values = || {
+                let values = desired.iter().map(|value| limit(*value, unit));
+                values.collect::<Vec<_>>().join(", ")
+            };
+            format!("= {}", wanted(task).unwrap_or_else(values))
         }
         GoalConfig::Set { min, max, .. } => match (min, max) {
             (Some(min), Some(max)) => format!("{} … {}", limit(*min, "-"), limit(*max, unit)),

@@ -1,16 +1,16 @@
 //! From a scenario to the objects that run it: robot, controller, waypoints.
 
 use conik::{
-    Controller, ControllerError, Coordinate, Distance, FieldOfView, Interval, JointPosition,
-    JointVec, ModeOrder, Position, Robot, Settings, Stack, StackError, Task, TaskId, TooManyJoints,
-    Vec3, Waypoints,
+    Controller, ControllerError, JointVec, ModeOrder, Robot, Settings, Stack, StackError, TaskId,
+    TooManyJoints, Vec3, Waypoints,
 };
 
 use crate::joint_limits::limited_robot;
+use crate::measured::add_task;
 use crate::mover::Mover;
 use crate::scenario::{
-    Axis, Border, Control, Damping, DampingRule, DescriptionError, GoalConfig, ModeRule, Recursion,
-    Scenario, TaskConfig, TaskKind,
+    Border, Control, Damping, DampingRule, DescriptionError, GoalConfig, ModeRule, Recursion,
+    Scenario,
 };
 
 /// A scenario made ready to run.
@@ -52,6 +52,9 @@ pub enum ExperimentError {
     /// A name in `exclusive` is no task's.
     #[error("`exclusive` names `{0}`, which is no task")]
     UnknownTask(String),
+    /// A task names a link that the robot does not have.
+    #[error("the robot has no link `{0}`")]
+    UnknownLink(String),
     /// Waypoints without points.
     #[error("task `{0}` has no waypoints")]
     NoWaypoints(String),
@@ -167,67 +170,4 @@ fn damping(config: Damping) -> conik::Damping {
         Damping::Rule(DampingRule::PerDirection) => conik::Damping::PerDirection,
         Damping::Fixed(lambda) => conik::Damping::Fixed(lambda),
     }
-}
-
-fn add_task(
-    stack: &mut Stack,
-    robot: &Robot,
-    config: &TaskConfig,
-) -> Result<TaskId, ExperimentError> {
-    match config.kind {
-        TaskKind::Position => add(stack, config, Position::of_tool()),
-        TaskKind::Coordinate { axis } => {
-            let axis = match axis {
-                Axis::X => conik::Axis::X,
-                Axis::Y => conik::Axis::Y,
-                Axis::Z => conik::Axis::Z,
-            };
-            add(stack, config, Coordinate::of_tool(axis))
-        }
-        TaskKind::Distance { point_m, .. } => add(stack, config, Distance::of_tool_to(point_m)),
-        TaskKind::FieldOfView { direction } => {
-            add(stack, config, FieldOfView::of_tool_along(direction))
-        }
-        // Joints are counted from 1 in scenarios; 0 is refused by the stack as any other that the
-        // robot does not have.
-        TaskKind::Joint { joint } => {
-            let task = JointPosition::of_robot(joint.wrapping_sub(1), robot);
-            add(stack, config, task)
-        }
-    }
-}
-
-fn add(stack: &mut Stack, config: &TaskConfig, task: impl Task) -> Result<TaskId, ExperimentError> {
-    let name = &config.name;
-    Ok(match &config.goal {
-        GoalConfig::Waypoints {
-            waypoints_m,
-            gain_per_s,
-            ..
-        } => {
-            let first = waypoints_m
-                .first()
-                .ok_or_else(|| ExperimentError::NoWaypoints(name.clone()))?;
-            stack.equality(name, task, first, *gain_per_s)?
-        }
-        GoalConfig::Desired {
-            desired,
-            gain_per_s,
-        } => stack.equality(name, task, desired, *gain_per_s)?,
-        GoalConfig::Set {
-            min,
-            max,
-            gain_per_s,
-            ..
-        } => {
-            let set = Interval {
-                min: min.unwrap_or(f64::NEG_INFINITY),
-                max: max.unwrap_or(f64::INFINITY),
-            };
-            match gain_per_s {
-                Some(gain) => stack.set_with_gain(name, task, set, *gain)?,
-                None => stack.set(name, task, set)?,
-            }
-        }
-    })
 }

@@ -3,7 +3,7 @@
 use conik::Robot;
 
 use crate::scenario::{
-    Damping, DescriptionError, GoalConfig, LimitsConfig, RobotConfig, Scenario, TaskConfig,
+    Damping, DescriptionError, Frames, GoalConfig, LimitsConfig, RobotConfig, Scenario, TaskConfig,
     TaskKind,
 };
 
@@ -21,6 +21,7 @@ impl Scenario {
             Some(TaskConfig {
                 name: format!("{LIMIT}{}", joint.name),
                 kind: TaskKind::Joint { joint: index + 1 },
+                frames: Frames::default(),
                 goal: GoalConfig::Set {
                     min: min.is_finite().then_some(min),
                     max: max.is_finite().then_some(max),

@@ -15,6 +15,7 @@ pub mod experiment;
 pub mod histogram;
 pub mod joint_limits;
 pub mod log;
+mod measured;
 pub mod monitors;
 pub mod mover;
 pub mod promise;

@@ -1,10 +1,10 @@
-//! What moves in a run besides the arm: the points of `distance` tasks.
+//! What moves in a run besides the arm: the points of `distance` and `look_at` tasks.
 
-use conik::{Distance, Setpoints, TaskId};
+use conik::{Distance, LookAt, Setpoints, TaskId};
 
 use crate::scenario::{Motion, TaskKind};
 
-/// A point that moves, and the task that measures the distance to it.
+/// A point that moves, and the task that it belongs to.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Mover {
     /// The task.
@@ -20,6 +20,10 @@ impl Mover {
     pub fn of(task: TaskId, kind: &TaskKind) -> Option<Self> {
         match *kind {
             TaskKind::Distance {
+                point_m,
+                motion: Some(motion),
+            }
+            | TaskKind::LookAt {
                 point_m,
                 motion: Some(motion),
             } => Some(Self {
@@ -38,9 +42,11 @@ impl Mover {
 
     /// Tells the task where its point is at `t_s` [s] and where it will be a period later.
     pub(crate) fn tell(&self, setpoints: &mut Setpoints<'_>, t_s: f64, period_s: f64) {
+        let (point, velocity) = (self.point_at(t_s), self.motion.velocity_at(t_s, period_s));
         if let Some(distance) = setpoints.task_mut::<Distance>(self.task) {
-            let velocity = self.motion.velocity_at(t_s, period_s);
-            distance.set_point_moving(self.point_at(t_s), velocity);
+            distance.set_point_moving(point, velocity);
+        } else if let Some(look) = setpoints.task_mut::<LookAt>(self.task) {
+            look.set_point_moving(point, velocity);
         }
     }
 }

@@ -8,7 +8,8 @@ use conik_sim::monitors::{Sighting, Verdict};
 use conik_sim::record::Record;
 use conik_sim::run::run;
 use conik_sim::scenario::{
-    Border, Damping, GoalConfig, ModeRule, Motion, Recursion, Scenario, TaskConfig, TaskKind,
+    Border, Damping, Frames, GoalConfig, ModeRule, Motion, Recursion, Scenario, TaskConfig,
+    TaskKind,
 };
 use conik_sim::summarise::Summariser;
 use conik_sim::summary::{Outcome, Property, Settings, Summary};
@@ -137,6 +138,7 @@ fn crossing(speed: f64) -> Scenario {
             desired: tool.to_vec(),
             gain_per_s: 1.0,
         },
+        frames: Frames::default(),
         damping: Damping::default(),
     });
     let mut start = tool;

@@ -1,6 +1,6 @@
 //! What stands in the space around the arm: path, obstacles, waypoints, and the floor below them.
 
-use conik_sim::scenario::{GoalConfig, TaskKind};
+use conik_sim::scenario::{GoalConfig, TaskConfig, TaskKind};
 
 use super::axis::nice_step;
 use super::camera::{Camera, Vector, difference, dot};
@@ -85,7 +85,9 @@ impl Scene {
             high: [0.0; 3],
             step: 1.0,
         };
-        for task in run.tasks() {
+        // What is in the axes of a link moves with it, and is not drawn.
+        let in_world = |task: &&TaskConfig| task.frames.relative_to.is_none();
+        for task in run.tasks().iter().filter(in_world) {
             match (&task.kind, &task.goal) {
                 (&TaskKind::Distance { point_m, motion }, GoalConfig::Set { min, max, .. }) => {
                     for (limit, is_obstacle) in [(min, true), (max, false)] {

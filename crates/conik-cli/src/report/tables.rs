@@ -76,11 +76,6 @@ fn held(result: &TaskSummary) -> String {
 
 fn kind(run: &Run, task: &TaskConfig) -> String {
     match task.kind {
-        TaskKind::Position => "tool position".to_owned(),
-        TaskKind::Coordinate { .. } | TaskKind::Joint { .. } => {
-            let label = quantity::value_label(run, task);
-            label.split(" [").next().unwrap_or_default().to_owned()
-        }
         TaskKind::Distance {
             point_m,
             motion: None,
@@ -98,6 +93,17 @@ fn kind(run: &Run, task: &TaskConfig) -> String {
             )
         }
         TaskKind::FieldOfView { .. } => "field of view".to_owned(),
+        TaskKind::PointingAngle { direction, .. } => {
+            format!(
+                "{} along {}",
+                quantity::quantity(run, task),
+                point(&direction)
+            )
+        }
+        TaskKind::LookAt { point_m, .. } => {
+            format!("{} at {}", quantity::quantity(run, task), point(&point_m))
+        }
+        _ => quantity::quantity(run, task),
     }
 }
 
@@ -118,6 +124,9 @@ fn goal(task: &TaskConfig, unit: &str) -> String {
                 .join(", ")
         }
         GoalConfig::Desired { desired, .. } => match desired[..] {
+            _ if quantity::wanted(task).is_some() => {
+                format!("= {}", quantity::wanted(task).unwrap_or_default())
+            }
             [value] => format!("= {}", units::limit(value, unit)),
             _ => format!("= {} {}", point(desired), Escaped(unit)),
         },

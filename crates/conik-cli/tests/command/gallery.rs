@@ -76,6 +76,20 @@ fn joints_come_to_their_limits_and_the_ball_is_slid_along() {
 }
 
 #[test]
+fn angles_heights_and_singularities_make_a_difference() {
+    let active = |summary: &Value, task: &str| summary["tasks"][task]["active_s"].as_f64();
+    let welding = run("types", "welding.toml", |text| text);
+    assert!(active(&welding, "torch") > Some(1.0));
+    let looking = run("types", "keep-looking.toml", |text| text);
+    assert!(active(&looking, "picture") > Some(10.0));
+    assert!(looking["tasks"]["picture"]["entered_set_s"].as_f64() > Some(1.0));
+    let table = run("types", "above-the-table.toml", |text| text);
+    for task in ["wrist", "dexterity"] {
+        assert!(active(&table, task) > Some(1.0), "{task}");
+    }
+}
+
+#[test]
 fn tool_gives_way_to_the_ball_that_crosses_its_way() {
     let crossing = run("crossing", "crossing.toml", |text| text);
     assert!(crossing["tasks"]["ball"]["active_s"].as_f64() > Some(1.0));

@@ -9,7 +9,7 @@ use std::time::Duration;
 use conik_sim::cycle_times::{CycleSummary, CycleTimes};
 use conik_sim::monitors::{JointMonitor, Monitors, Sighting, Verdict};
 use conik_sim::scenario::{
-    Border, Control, Damping, GoalConfig, LimitsConfig, ModeRule, PlacesConfig, Recursion,
+    Border, Control, Damping, Frames, GoalConfig, LimitsConfig, ModeRule, PlacesConfig, Recursion,
     RobotConfig, RobotSource, Scenario, TaskConfig, TaskKind,
 };
 use conik_sim::summary::{
@@ -171,6 +171,7 @@ impl Invention {
                     recovery_per_s: None,
                     gain_per_s: None,
                 },
+                frames: Frames::default(),
                 damping: Damping::default(),
             })
             .collect();
@@ -193,6 +194,7 @@ impl Invention {
                         gain_per_s: 0.3,
                     }
                 },
+                frames: Frames::default(),
                 damping: Damping::default(),
             });
         }
@@ -209,6 +211,7 @@ impl Invention {
                     recovery_per_s: None,
                     gain_per_s: Some(1.0),
                 },
+                frames: Frames::default(),
                 damping: Damping::default(),
             };
             tasks.insert(0, view);

@@ -7,6 +7,10 @@ use crate::scenario::{GoalConfig, Scenario, TaskConfig, TaskKind};
 
 /// The point of an obstacle and the distance to be kept from it; where one that moves comes to rest.
 fn obstacle(task: &TaskConfig) -> Option<(Vec3, f64)> {
+    // What is in the axes of a link, or concerns another link than the tool, is nothing to the targets.
+    if !task.frames.is_tool_in_world() {
+        return None;
+    }
     match (&task.kind, &task.goal) {
         (&TaskKind::Distance { point_m, motion }, GoalConfig::Set { min: Some(min), .. }) => {
             let rest = match motion {
@@ -31,6 +35,9 @@ pub(super) fn obstacles_too_fast(
         let (TaskKind::Distance { motion, .. }, Some(_)) = (&task.kind, keeps_away(task)) else {
             continue;
         };
+        if !task.frames.is_tool_in_world() {
+            continue;
+        }
         let velocity: Vec3 = motion
             .map_or([0.0; 3], |motion| motion.velocity_m_per_s)
             .into();
@@ -72,7 +79,8 @@ fn fastest_along(direction: Vec3, experiment: &Experiment, kinematics: &Kinemati
 /// Where a position task wants the tool, with the name of each place.
 pub(super) fn targets(scenario: &Scenario) -> Vec<(String, Vec3)> {
     let mut targets = Vec::new();
-    for task in &scenario.tasks {
+    let of_tool = scenario.tasks.iter();
+    for task in of_tool.filter(|task| task.frames.is_tool_in_world()) {
         match (&task.kind, &task.goal) {
             (TaskKind::Position, GoalConfig::Waypoints { waypoints_m, .. }) => {
                 for (i, &point) in waypoints_m.iter().enumerate() {

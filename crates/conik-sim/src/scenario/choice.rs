@@ -1,6 +1,6 @@
 //! Settings with a fixed list of values, by their names in the file.
 
-use super::config::{Axis, Border, ModeRule, Recursion};
+use super::config::{Axis, Border, ModeRule, Part, Recursion};
 
 /// A setting with a fixed list of values.
 pub trait Choice: Copy + PartialEq + Sized + 'static {
@@ -99,6 +99,22 @@ impl Choice for Axis {
             Self::X => "x",
             Self::Y => "y",
             Self::Z => "z",
+        }
+    }
+}
+
+impl Choice for Part {
+    const ALL: &'static [(Self, &'static str)] = &[
+        (Self::Position, "the three rows of the position"),
+        (Self::Orientation, "the three rows of the angular velocity"),
+        (Self::Pose, "all six, a metre counting as much as a radian"),
+    ];
+
+    fn name(self) -> &'static str {
+        match self {
+            Self::Position => "position",
+            Self::Orientation => "orientation",
+            Self::Pose => "pose",
         }
     }
 }

@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::damping::Damping;
+use super::frames::Frames;
 use super::motion::Motion;
 use super::robot_source::{PlacesConfig, RobotSource};
 use super::ur::UrSettings;
@@ -126,6 +127,9 @@ pub struct TaskConfig {
     /// What it measures.
     #[serde(flatten)]
     pub kind: TaskKind,
+    /// Of which frame, and as which other one sees it.
+    #[serde(flatten)]
+    pub frames: Frames,
     /// What is asked of it.
     #[serde(flatten)]
     pub goal: GoalConfig,
@@ -138,34 +142,121 @@ pub struct TaskConfig {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "type", rename_all = "snake_case")]
 pub enum TaskKind {
-    /// Tool position in the base frame [m]; dimension 3.
+    /// Position of the frame [m]; dimension 3.
     Position,
-    /// One coordinate of the tool position [m].
+    /// One coordinate of the frame's position [m].
     Coordinate {
         /// Which one.
         axis: Axis,
     },
-    /// Distance of the tool to a point [m].
+    /// Distance of the frame to a point [m].
     Distance {
-        /// The point in the base frame [m], at t = 0 if it moves.
+        /// The point [m], at t = 0 if it moves.
         point_m: [f64; 3],
         /// How it moves, if it does.
         #[serde(flatten, skip_serializing_if = "Option::is_none")]
         motion: Option<Motion>,
     },
-    /// Norm of (direction − tool z axis) [-].
+    /// Norm of (direction − z axis of the frame) [-].
     FieldOfView {
-        /// The direction in the base frame, of length 1.
+        /// The direction, of length 1.
         direction: [f64; 3],
     },
+    /// Rotation vector from a desired orientation to that of the frame [rad]; dimension 3, zero is desired.
+    Orientation {
+        /// The desired orientation, a quaternion of length 1, its real part first.
+        desired_quaternion_wxyz: [f64; 4],
+    },
+    /// Length of that vector: the angle that is left to turn [rad].
+    OrientationAngle {
+        /// The desired orientation, a quaternion of length 1, its real part first.
+        desired_quaternion_wxyz: [f64; 4],
+    },
+    /// Position and orientation of the frame against desired ones [m, rad]; dimension 6, zero is desired.
+    Pose {
+        /// The desired position [m].
+        target_m: [f64; 3],
+        /// The desired orientation, a quaternion of length 1, its real part first.
+        desired_quaternion_wxyz: [f64; 4],
+    },
+    /// Angle between an axis of the frame and a direction [rad].
+    PointingAngle {
+        /// The axis in the frame, of length 1.
+        axis: [f64; 3],
+        /// The direction, of length 1.
+        direction: [f64; 3],
+    },
+    /// Angle between the frame's z axis and the line of sight to a point [rad].
+    LookAt {
+        /// The point [m], at t = 0 if it moves.
+        point_m: [f64; 3],
+        /// How it moves, if it does.
+        #[serde(flatten, skip_serializing_if = "Option::is_none")]
+        motion: Option<Motion>,
+    },
+    /// Signed distance of the frame to a plane [m].
+    Plane {
+        /// The normal of the plane, of length 1, towards what counts positive.
+        normal: [f64; 3],
+        /// How far the plane is from the origin along its normal [m].
+        offset_m: f64,
+    },
+    /// Height of the frame: its z [m].
+    Height,
     /// Position of one joint [rad or m].
     Joint {
         /// 1-based number of the joint.
         joint: usize,
     },
+    /// Positions of several joints [rad or m].
+    Posture {
+        /// 1-based numbers of the joints.
+        joints: Vec<usize>,
+    },
+    /// Speed of one joint, without regard to where it is; the value is its position [rad or m].
+    JointSpeed {
+        /// 1-based number of the joint.
+        joint: usize,
+        /// The desired speed [rad/s or m/s].
+        speed_rad_per_s: f64,
+    },
+    /// Manipulability of the frame, √det(J Jᵀ) [m³ or -].
+    Manipulability {
+        /// Which rows of the Jacobian count.
+        part: Part,
+    },
+    /// Smallest singular value of the frame's Jacobian [m/rad or -].
+    SmallestSingularValue {
+        /// Which rows of the Jacobian count.
+        part: Part,
+    },
+    /// Swivel angle of the elbow about the line from shoulder to wrist [rad].
+    Elbow {
+        /// Link at whose origin the shoulder is.
+        shoulder: String,
+        /// Link at whose origin the elbow is.
+        elbow: String,
+        /// Link at whose origin the wrist is.
+        wrist: String,
+        /// Where the elbow is at 0, of length 1.
+        direction: [f64; 3],
+    },
 }
 
-/// A coordinate axis of the base frame.
+/// Which rows of a frame's Jacobian count.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Part {
+    /// The three of its position.
+    #[default]
+    Position,
+    /// The three of its angular velocity.
+    Orientation,
+    /// All six.
+    Pose,
+}
+
+/// A coordinate axis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Axis {
@@ -190,7 +281,8 @@ pub enum GoalConfig {
         /// Λ [1/s].
         gain_per_s: f64,
     },
-    /// Equality task: one desired value (one entry, or three for `position`).
+    /// Equality task: one desired value (one entry, three for `position`, one a joint for `posture`; zeros
+    /// for what has its desired value among its own keys).
     Desired {
         /// `σ_des` in the task's unit.
         desired: Vec<f64>,

@@ -28,8 +28,8 @@ impl Table<'_> {
 /// A vector that has length 1 within rounding stays as it is, so that a scenario written and read
 /// again is the same: scaling, norm and division leave an error below 8 half-units of the last
 /// place, 8.9e-16.
-fn normalised(vector: [f64; 3]) -> Option<[f64; 3]> {
-    let norm = |v: [f64; 3]| v.iter().map(|x| x * x).sum::<f64>().sqrt();
+pub(super) fn normalised<const N: usize>(vector: [f64; N]) -> Option<[f64; N]> {
+    let norm = |v: [f64; N]| v.iter().map(|x| x * x).sum::<f64>().sqrt();
     if (norm(vector) - 1.0).abs() <= 1e-15 {
         return Some(vector);
     }

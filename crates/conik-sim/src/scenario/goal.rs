@@ -4,6 +4,7 @@ use super::config::GoalConfig;
 use super::key::Key;
 use super::keys;
 use super::mistake::Mistakes;
+use super::posture;
 use super::read::Surroundings;
 use super::table::Table;
 use super::task_types::{GoalShape, TaskType};
@@ -18,6 +19,26 @@ pub(super) fn read(
     let gain = read_gain(table, surroundings.rate_hz, found);
     match task_type.goal {
         GoalShape::Point => read_point(table, gain, found),
+        GoalShape::Vanishing { size, has_gain } => {
+            let gain_per_s = if has_gain {
+                needs_gain(table, gain, found)?
+            } else {
+                // Of no error any gain makes nothing.
+                1.0
+            };
+            Some(GoalConfig::Desired {
+                desired: vec![0.0; size],
+                gain_per_s,
+            })
+        }
+        GoalShape::Posture => {
+            let desired = posture::desired(table, surroundings.robot, found);
+            let gain_per_s = needs_gain(table, gain, found);
+            Some(GoalConfig::Desired {
+                desired: desired?,
+                gain_per_s: gain_per_s?,
+            })
+        }
         GoalShape::Scalar(least, most) => read_scalar(table, gain, (least, most), found),
     }
 }

@@ -81,45 +81,59 @@ impl Table<'_> {
         robot: Option<&RobotFacts>,
         found: &mut Mistakes,
     ) -> Entry<usize> {
-        self.entry(key, |value| {
-            let names: &[String] = match robot {
-                Some(robot) => &robot.joint_names,
-                None => &[],
-            };
-            if let Some(name) = value.toml.get_ref().as_str() {
-                // The names of an unknown robot's joints are unknown too; that is noted already.
-                robot?;
-                let index = names.iter().position(|joint| *joint == name);
-                if index.is_none() {
-                    let (what, help) = unknown_name(name, names.iter().map(String::as_str));
-                    found.add(value.span(), &*value.path, what, help);
-                }
-                return index.map(|index| index + 1);
+        self.entry(key, |value| value.joint(robot, found))
+    }
+
+    /// Numbers in the range that the key allows, however many.
+    pub(super) fn any_joint_numbers(
+        &self,
+        key: &'static Key,
+        found: &mut Mistakes,
+    ) -> Entry<Vec<f64>> {
+        self.entry(key, |value| value.numbers(&key.range(), found))
+    }
+}
+
+impl Value<'_> {
+    /// The 1-based number of a joint, given as a number or by the joint's name.
+    pub(super) fn joint(&self, robot: Option<&RobotFacts>, found: &mut Mistakes) -> Option<usize> {
+        let names: &[String] = match robot {
+            Some(robot) => &robot.joint_names,
+            None => &[],
+        };
+        if let Some(name) = self.toml.get_ref().as_str() {
+            // The names of an unknown robot's joints are unknown too; that is noted already.
+            robot?;
+            let index = names.iter().position(|joint| *joint == name);
+            if index.is_none() {
+                let (what, help) = unknown_name(name, names.iter().map(String::as_str));
+                found.add(self.span(), &*self.path, what, help);
             }
-            if !value.toml.get_ref().is_integer() && !value.toml.get_ref().is_float() {
-                value.wrong_kind(key.holds.expected(), found);
-                return None;
-            }
-            let number = value.number(&Range::FINITE, found)?;
-            let most = if robot.is_some() {
-                names.len()
-            } else {
-                MOST_JOINTS
-            };
-            let joint = (1..=most).find(|joint| *joint as f64 == number);
-            if joint.is_none() {
-                found.add(
-                    value.span(),
-                    &*value.path,
-                    format!("there is no joint {}", shown(number)),
-                    format!(
-                        "the joints are 1 to {most}, from base to tool: {}",
-                        names.join(", ")
-                    ),
-                );
-            }
-            joint
-        })
+            return index.map(|index| index + 1);
+        }
+        if !self.toml.get_ref().is_integer() && !self.toml.get_ref().is_float() {
+            self.wrong_kind(self.key.holds.expected(), found);
+            return None;
+        }
+        let number = self.number(&Range::FINITE, found)?;
+        let most = if robot.is_some() {
+            names.len()
+        } else {
+            MOST_JOINTS
+        };
+        let joint = (1..=most).find(|joint| *joint as f64 == number);
+        if joint.is_none() {
+            found.add(
+                self.span(),
+                &*self.path,
+                format!("there is no joint {}", shown(number)),
+                format!(
+                    "the joints are 1 to {most}, from base to tool: {}",
+                    names.join(", ")
+                ),
+            );
+        }
+        joint
     }
 }
 

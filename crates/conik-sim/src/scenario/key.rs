@@ -43,6 +43,7 @@ impl Key {
             | Holds::JointPairs(range)
             | Holds::Vector(range)
             | Holds::Points(range)
+            | Holds::Quaternion(range)
             | Holds::ChoiceOrNumber(_, range) => range,
             _ => Range::FINITE,
         }
@@ -82,8 +83,14 @@ pub(super) enum Holds {
     Vector(Range),
     /// One or more points of three numbers.
     Points(Range),
+    /// Four numbers.
+    Quaternion(Range),
     /// 1-based number of a joint, or its name.
     Joint,
+    /// Some joints, each by its number or its name.
+    Joints,
+    /// Name of a link of the robot.
+    Link,
     /// One of a fixed list of names, each with one line for people.
     Choice(fn() -> Vec<(&'static str, &'static str)>),
     /// One of a fixed list of names, or a number.
@@ -112,16 +119,21 @@ impl Holds {
     /// For "expected ..., found ...".
     pub(super) fn expected(&self) -> &'static str {
         match self {
-            Self::Text | Self::TaskName | Self::Robot | Self::TaskType | Self::Choice(_) => {
-                "text in quotes"
-            }
+            Self::Text
+            | Self::TaskName
+            | Self::Robot
+            | Self::TaskType
+            | Self::Link
+            | Self::Choice(_) => "text in quotes",
             Self::Number(_) => "a number",
             Self::JointNumbers(_) => "a list of numbers, one for each joint",
             Self::NumberOrJointNumbers(_) => "a number, or a list of numbers, one for each joint",
             Self::JointPairs(_) => "a list of pairs of numbers, one for each joint",
             Self::Vector(_) => "a list of three numbers",
             Self::Points(_) => "a list of points, each of three numbers",
+            Self::Quaternion(_) => "a list of four numbers",
             Self::Joint => "the number of a joint or its name",
+            Self::Joints => "a list of joints, each by its number or its name",
             Self::ChoiceOrNumber(..) => "text in quotes, or a number",
             Self::NameOrNames => "text in quotes, or a list of it",
             Self::NameGroups => "a list of groups, each a list of task names",

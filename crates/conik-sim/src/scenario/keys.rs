@@ -1,16 +1,17 @@
-//! Every key of the scenario file, table by table; those of `[robot]` stand in `robot_keys.rs`. To
-//! add one, add it here, to the list of its table, and to the function that reads that table.
+//! Every key of the scenario file, table by table; those of `[robot]` stand in `robot_keys.rs`,
+//! those of single task types in `task_keys.rs`. To add one, add it here, to the list of its table, and to the function that reads that table.
 
-use super::config::{Axis, Border, ModeRule, Recursion};
+use super::config::{Border, ModeRule, Recursion};
 use super::damping::DampingRule;
 use super::key::{Holds, Key, Range};
 pub(super) use super::robot_keys::*;
+pub(super) use super::task_keys::*;
 pub(super) use super::ur_keys::*;
 
 /// Slower than 1 Hz nothing is controlled; no arm takes references faster than 10 kHz.
 const RATE: Range = Range::between(1.0, 10_000.0);
 /// Up to a day.
-const DURATION: Range = Range::positive(86_400.0);
+pub(super) const DURATION: Range = Range::positive(86_400.0);
 /// A day at 500 Hz is 43 million ticks, and its log some 20 GB.
 pub(super) const MOST_TICKS: f64 = 50_000_000.0;
 /// Gains are held to less than twice the control rate besides.
@@ -132,6 +133,12 @@ pub(super) const TYPE: Key = Key::new(
 /// What can be asked of a task with one value.
 pub(super) const SCALAR_GOAL: &[&Key] =
     &[&DESIRED, &MIN, &MAX, &RECOVERY_PER_S, &GAIN_PER_S, &DAMPING];
+/// What is asked of a task that has its desired value among its own keys.
+pub(super) const VANISHING_GOAL: &[&Key] = &[&GAIN_PER_S, &DAMPING];
+/// The same where there is no error that a gain could act on.
+pub(super) const VANISHING_GOAL_WITHOUT_GAIN: &[&Key] = &[&DAMPING];
+/// What can be asked of several joints.
+pub(super) const POSTURE_GOAL: &[&Key] = &[&DESIRED_DEG, &DESIRED_RAD, &GAIN_PER_S, &DAMPING];
 /// What can be asked of a task whose value is a point.
 pub(super) const POINT_GOAL: &[&Key] = &[
     &WAYPOINTS_M,
@@ -208,48 +215,4 @@ pub(super) const DAMPING: Key = Key::new(
      is the same λ everywhere, in the task's unit per radian. Without it, \"automatic\"",
     Holds::choice_or_number::<DampingRule>(Range::between(0.0, Range::SANE.most)),
     r#""per-direction""#,
-);
-
-/// What some task types ask for besides.
-pub(super) const AXIS: Key = Key::new(
-    "axis",
-    "",
-    "Which coordinate of the tool position",
-    Holds::choice::<Axis>(),
-    r#""z""#,
-);
-pub(super) const POINT_M: Key = Key::new(
-    "point_m",
-    "m",
-    "The point in the base frame",
-    Holds::Vector(Range::SANE),
-    "[0.40, -0.25, -0.33]",
-);
-pub(super) const VELOCITY_M_PER_S: Key = Key::new(
-    "velocity_m_per_s",
-    "m/s",
-    "How the point moves in the base frame; `point_m` is where it is at t = 0",
-    Holds::Vector(Range::SANE),
-    "[0, -0.2, 0]",
-);
-pub(super) const MOVES_UNTIL_S: Key = Key::new(
-    "moves_until_s",
-    "s",
-    "When the point comes to rest; without it, it never does",
-    Holds::Number(DURATION),
-    "4",
-);
-pub(super) const DIRECTION: Key = Key::new(
-    "direction",
-    "",
-    "The direction in the base frame, of any length but zero",
-    Holds::Vector(Range::FINITE),
-    "[1, 0, 0]",
-);
-pub(super) const JOINT: Key = Key::new(
-    "joint",
-    "",
-    "Number of the joint, from 1 at the base, or its name",
-    Holds::Joint,
-    r#""elbow_joint""#,
 );

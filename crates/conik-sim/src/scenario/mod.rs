@@ -9,11 +9,13 @@
 //! `task_types.rs` (what a task can measure), `choice.rs` (settings with a fixed list of values)
 //! and `robots.rs`. Reader and schema are both driven by those tables.
 
+mod arm_types;
 mod choice;
 mod config;
 mod control;
 mod damping;
 mod direction;
+mod frames;
 mod goal;
 mod hierarchy;
 mod joints;
@@ -24,7 +26,10 @@ mod load;
 mod mistake;
 mod motion;
 mod names;
+mod orientation;
+mod orientation_types;
 mod place;
+mod posture;
 mod read;
 mod robot;
 mod robot_keys;
@@ -35,19 +40,22 @@ mod suggest;
 mod syntax;
 mod table;
 mod task;
+mod task_keys;
 mod task_types;
 mod ur;
 mod ur_keys;
 mod urdf_file;
 mod value;
 mod write;
+mod written;
 
 pub use choice::Choice;
 pub use config::{
-    Axis, Border, Control, GoalConfig, LimitsConfig, ModeRule, Recursion, RobotConfig, Scenario,
-    TaskConfig, TaskKind,
+    Axis, Border, Control, GoalConfig, LimitsConfig, ModeRule, Part, Recursion, RobotConfig,
+    Scenario, TaskConfig, TaskKind,
 };
 pub use damping::{Damping, DampingRule};
+pub use frames::Frames;
 pub use load::{LoadError, MAX_FILE_BYTES};
 pub use mistake::{Mistake, ScenarioErrors};
 pub use motion::Motion;

@@ -13,6 +13,8 @@ pub struct RobotFacts {
     pub joint_names: Vec<String>,
     /// Of each joint, whether it slides and has its positions in [m].
     pub slides: Vec<bool>,
+    /// Names of the links.
+    pub link_names: Vec<String>,
     /// How many of the joints have position limits, unless a scenario overrides them.
     pub position_limits: usize,
 }
@@ -32,6 +34,7 @@ impl RobotFacts {
         Self {
             name: name.to_owned(),
             joint_names: robot.joint_names().map(str::to_owned).collect(),
+            link_names: robot.link_names().map(str::to_owned).collect(),
             slides: joints
                 .iter()
                 .map(|joint| joint.kind == JointKind::Prismatic)

@@ -82,7 +82,7 @@ fn holds(key: &Key) -> Value {
                 .collect();
             json!({ "type": "string", "enum": names })
         }
-        Holds::Text | Holds::TaskType => json!({ "type": "string" }),
+        Holds::Text | Holds::TaskType | Holds::Link => json!({ "type": "string" }),
         Holds::Number(range) => number(range),
         Holds::JointNumbers(range) => {
             json!({ "type": "array", "items": number(range), "minItems": 1 })
@@ -99,10 +99,13 @@ fn holds(key: &Key) -> Value {
         }
         Holds::Vector(range) => vector(range),
         Holds::Points(range) => json!({ "type": "array", "items": vector(range), "minItems": 1 }),
-        Holds::Joint => json!({ "anyOf": [
-            { "type": "integer", "minimum": 1 },
-            { "type": "string" },
-        ] }),
+        Holds::Quaternion(range) => {
+            json!({ "type": "array", "items": number(range), "minItems": 4, "maxItems": 4 })
+        }
+        Holds::Joint => joint(),
+        Holds::Joints => {
+            json!({ "type": "array", "items": joint(), "minItems": 1, "uniqueItems": true })
+        }
         Holds::Choice(values) => one_of(values()),
         Holds::ChoiceOrNumber(values, range) => {
             json!({ "anyOf": [one_of(values()), number(range)] })
@@ -147,6 +150,13 @@ fn number(range: Range) -> Value {
 
 fn vector(range: Range) -> Value {
     json!({ "type": "array", "items": number(range), "minItems": 3, "maxItems": 3 })
+}
+
+fn joint() -> Value {
+    json!({ "anyOf": [
+        { "type": "integer", "minimum": 1 },
+        { "type": "string" },
+    ] })
 }
 
 /// Names of the joints of all robots.
@@ -225,6 +235,12 @@ fn task_of_type(task_type: &TaskType) -> Value {
                 { "required": ["acceptance_m"] },
             ] } },
         ]),
+        GoalShape::Vanishing { has_gain: true, .. } => json!([{ "required": ["gain_per_s"] }]),
+        GoalShape::Vanishing { .. } => json!([{}]),
+        GoalShape::Posture => json!([
+            { "required": ["desired_deg", "gain_per_s"] },
+            { "required": ["desired_rad", "gain_per_s"] },
+        ]),
         GoalShape::Scalar(..) => json!([
             { "required": ["desired", "gain_per_s"], "not": { "anyOf": [
                 { "required": ["min"] },
@@ -238,6 +254,13 @@ fn task_of_type(task_type: &TaskType) -> Value {
         ]),
     };
     set(&mut schema, "oneOf", goals);
+    if !task_type.one_of.is_empty() {
+        let alternatives = task_type.one_of.iter();
+        let alternatives: Vec<_> = alternatives
+            .map(|key| json!({ "required": [key.name] }))
+            .collect();
+        set(&mut schema, "allOf", json!([{ "oneOf": alternatives }]));
+    }
     if let GoalShape::Scalar(least, most) = task_type.goal {
         restrict(&mut schema["properties"], least, most);
     }

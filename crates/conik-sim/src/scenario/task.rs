@@ -4,6 +4,7 @@ use std::ops::Range;
 
 use super::config::TaskConfig;
 use super::damping::{self, Damping};
+use super::frames;
 use super::goal;
 use super::key::Key;
 use super::keys;
@@ -11,6 +12,7 @@ use super::mistake::{Mistakes, quoted};
 use super::names;
 use super::place::Placed;
 use super::read::Surroundings;
+use super::suggest::nearest;
 use super::table::{Table, unknown_name};
 use super::task_types::{self, GoalShape, TaskType};
 
@@ -62,6 +64,7 @@ pub(super) fn read(table: &Table, surroundings: Surroundings, found: &mut Mistak
     refuse_unknown_keys(&table, task_type, found);
 
     let kind = task_type.and_then(|it| (it.read)(&table, surroundings.robot, found));
+    let frames = frames::read(&table, surroundings.robot, found);
     let goal = match task_type {
         Some(task_type) => goal::read(&table, task_type, surroundings, found),
         None => goal::look_over(&table, found),
@@ -71,6 +74,7 @@ pub(super) fn read(table: &Table, surroundings: Surroundings, found: &mut Mistak
         Some(TaskConfig {
             name: name.as_ref()?.value.clone(),
             kind: kind?,
+            frames: frames?,
             goal: goal?,
             damping: damping?,
         })
@@ -98,7 +102,7 @@ fn role(table: &Table, task_type: Option<&TaskType>) -> Role {
     let equality_keys = [&keys::DESIRED, &keys::TARGET_M, &keys::WAYPOINTS_M];
     let has_desired = equality_keys.into_iter().any(|key| table.has(key));
     match task_type {
-        Some(task_type) if task_type.goal == GoalShape::Point => Role::Equality,
+        Some(task_type) if !matches!(task_type.goal, GoalShape::Scalar(..)) => Role::Equality,
         _ => match (has_desired, has_limits) {
             (true, false) => Role::Equality,
             (false, true) => Role::Set,
@@ -128,15 +132,27 @@ fn refuse_unknown_keys(table: &Table, task_type: Option<&'static TaskType>, foun
     let Some(task_type) = task_type else {
         // Of a task of unknown type, any key of any type may be meant.
         let known = task_types::ALL.iter().flat_map(TaskType::all_keys);
-        return table.refuse_unknown_keys(&known, |_| None, found);
+        let names = known.clone().map(|key| key.name);
+        let of_none = |name: &str| {
+            nearest(name, names.clone()).is_none().then(|| {
+                let what = format!("unknown key {}", quoted(name));
+                (what, "no type of task has such a key".to_owned())
+            })
+        };
+        return table.refuse_unknown_keys(&known, of_none, found);
     };
-    let special =
-        |name: &str| {
-            let owner = task_types::ALL
-                .iter()
-                .find(|other| other.all_keys().any(|key| key.name == name))?;
-            let (this, is_point) = (task_type.name, task_type.goal == GoalShape::Point);
-            Some(match name {
+    let special = |name: &str| {
+        let owner = task_types::ALL
+            .iter()
+            .find(|other| other.all_keys().any(|key| key.name == name))?;
+        let (this, is_point) = (task_type.name, task_type.goal == GoalShape::Point);
+        let is_scalar = matches!(task_type.goal, GoalShape::Scalar(..));
+        Some(match name {
+            "min" | "max" | "recovery_per_s" if !is_scalar && !is_point => (
+                format!("a task of type {this:?} cannot be a set"),
+                "sets are of one number: take type \"orientation_angle\", \"coordinate\" or \"joint\""
+                    .to_owned(),
+            ),
             "min" | "max" | "recovery_per_s" if is_point => (
                 format!("a task of type {this:?} cannot be a set: its value is a point"),
                 "take type \"coordinate\" to limit one axis, or \"distance\" to keep away from a \
@@ -147,7 +163,7 @@ fn refuse_unknown_keys(table: &Table, task_type: Option<&'static TaskType>, foun
                 format!("a task of type {this:?} has no single `desired` value"),
                 keys::TARGET_M.write_example(),
             ),
-            "target_m" | "waypoints_m" | "acceptance_m" if !is_point => (
+            "target_m" | "waypoints_m" | "acceptance_m" if is_scalar => (
                 format!("a task of type {this:?} has no `{name}`: its value is one number"),
                 "give `desired`, or `min` and/or `max`; points belong to type \"position\""
                     .to_owned(),
@@ -157,6 +173,6 @@ fn refuse_unknown_keys(table: &Table, task_type: Option<&'static TaskType>, foun
                 "remove it, or correct the type".to_owned(),
             ),
         })
-        };
+    };
     table.refuse_unknown_keys(&task_type.all_keys(), special, found);
 }

@@ -1,7 +1,7 @@
 //! The types of task that a scenario may name: what each measures, the keys it needs, and how it
-//! is read and written. To add a type, add it here and to `TaskKind`.
+//! is read; those that concern orientations stand in `orientation_types.rs`, those that concern the
+//! arm as a whole in `arm_types.rs`. To add a type, add it here, to `TaskKind` and to `written.rs`.
 
-use super::choice::Choice;
 use super::config::TaskKind;
 use super::key::Key;
 use super::keys;
@@ -9,7 +9,7 @@ use super::mistake::Mistakes;
 use super::motion;
 use super::robots::RobotFacts;
 use super::table::Table;
-use super::write::{text, vector};
+use super::{arm_types, orientation_types};
 
 /// A type of task.
 #[derive(Debug)]
@@ -22,6 +22,8 @@ pub(super) struct TaskType {
     pub(super) keys: &'static [&'static Key],
     /// The keys that it may have besides, each with the key that it needs beside it.
     pub(super) optional: &'static [(&'static Key, Option<&'static Key>)],
+    /// The keys of which it needs one, and cannot have two.
+    pub(super) one_of: &'static [&'static Key],
     /// What can be asked of it.
     pub(super) goal: GoalShape,
     /// Reads what it measures.
@@ -35,6 +37,15 @@ pub(super) enum GoalShape {
     Point,
     /// One value that is always between these: desired, or kept in a set.
     Scalar(f64, f64),
+    /// So many values that are desired to be zero; never a set.
+    Vanishing {
+        /// Number of values.
+        size: usize,
+        /// Whether there is an error that a gain acts on.
+        has_gain: bool,
+    },
+    /// A position for each of some joints; never a set.
+    Posture,
 }
 
 impl TaskType {
@@ -43,6 +54,9 @@ impl TaskType {
         match self.goal {
             GoalShape::Point => keys::POINT_GOAL,
             GoalShape::Scalar(..) => keys::SCALAR_GOAL,
+            GoalShape::Vanishing { has_gain: true, .. } => keys::VANISHING_GOAL,
+            GoalShape::Vanishing { .. } => keys::VANISHING_GOAL_WITHOUT_GAIN,
+            GoalShape::Posture => keys::POSTURE_GOAL,
         }
     }
 
@@ -51,29 +65,44 @@ impl TaskType {
         keys::TASK_KEYS
             .iter()
             .chain(self.keys)
+            .chain(self.one_of)
             .chain(self.goal_keys())
             .copied()
             .chain(self.optional.iter().map(|(key, _)| *key))
     }
 }
 
-const ANY: GoalShape = GoalShape::Scalar(f64::NEG_INFINITY, f64::INFINITY);
+pub(super) const ANY: GoalShape = GoalShape::Scalar(f64::NEG_INFINITY, f64::INFINITY);
+
+/// What every type may have that measures a frame.
+pub(super) const OF_FRAME: &[(&Key, Option<&Key>)] =
+    &[(&keys::FRAME, None), (&keys::RELATIVE_TO, None)];
+
+/// What a type may have that measures a frame against a point that may move.
+pub(super) const OF_FRAME_AND_MOVING_POINT: &[(&Key, Option<&Key>)] = &[
+    (&keys::FRAME, None),
+    (&keys::RELATIVE_TO, None),
+    (&keys::VELOCITY_M_PER_S, None),
+    (&keys::MOVES_UNTIL_S, Some(&keys::VELOCITY_M_PER_S)),
+];
 
 /// Every type of task.
 pub(super) const ALL: &[TaskType] = &[
     TaskType {
         name: "position",
-        about: "Tool position in the base frame [m]; cannot be a set",
+        about: "Position of the tool, or of `frame` [m]; cannot be a set",
         keys: &[],
-        optional: &[],
+        optional: OF_FRAME,
+        one_of: &[],
         goal: GoalShape::Point,
         read: |_, _, _| Some(TaskKind::Position),
     },
     TaskType {
         name: "coordinate",
-        about: "One coordinate of the tool position in the base frame [m]",
+        about: "One coordinate of the position [m]",
         keys: &[&keys::AXIS],
-        optional: &[],
+        optional: OF_FRAME,
+        one_of: &[],
         goal: ANY,
         read: |table, _, found| {
             let axis = table.choice(&keys::AXIS, found).required(table, found)?;
@@ -84,10 +113,8 @@ pub(super) const ALL: &[TaskType] = &[
         name: "distance",
         about: "Distance of the tool to a point [m], which may move",
         keys: &[&keys::POINT_M],
-        optional: &[
-            (&keys::VELOCITY_M_PER_S, None),
-            (&keys::MOVES_UNTIL_S, Some(&keys::VELOCITY_M_PER_S)),
-        ],
+        optional: OF_FRAME_AND_MOVING_POINT,
+        one_of: &[],
         goal: GoalShape::Scalar(0.0, f64::INFINITY),
         read: |table, _, found| {
             let point_m = table.vector(&keys::POINT_M, found).required(table, found);
@@ -102,7 +129,8 @@ pub(super) const ALL: &[TaskType] = &[
         name: "field_of_view",
         about: "Norm of (direction - tool z axis) [-]: 2 sin(angle / 2), from 0 to 2",
         keys: &[&keys::DIRECTION],
-        optional: &[],
+        optional: OF_FRAME,
+        one_of: &[],
         goal: GoalShape::Scalar(0.0, 2.0),
         read: |table, _, found| {
             let direction = table
@@ -116,6 +144,7 @@ pub(super) const ALL: &[TaskType] = &[
         about: "Position of one joint [rad], or [m] if it slides",
         keys: &[&keys::JOINT],
         optional: &[],
+        one_of: &[],
         goal: ANY,
         read: |table, robot, found| {
             let joint = table
@@ -124,27 +153,48 @@ pub(super) const ALL: &[TaskType] = &[
             Some(TaskKind::Joint { joint })
         },
     },
+    orientation_types::ORIENTATION,
+    orientation_types::ORIENTATION_ANGLE,
+    orientation_types::POSE,
+    orientation_types::POINTING_ANGLE,
+    orientation_types::LOOK_AT,
+    TaskType {
+        name: "plane",
+        about: "Signed distance to a plane [m], positive on the side of its normal",
+        keys: &[&keys::NORMAL],
+        optional: &[
+            (&keys::OFFSET_M, None),
+            (&keys::FRAME, None),
+            (&keys::RELATIVE_TO, None),
+        ],
+        one_of: &[],
+        goal: ANY,
+        read: |table, _, found| {
+            let normal = table.direction(&keys::NORMAL, found).required(table, found);
+            let offset_m = table.number(&keys::OFFSET_M, found).or(0.0);
+            Some(TaskKind::Plane {
+                normal: normal?,
+                offset_m: offset_m?,
+            })
+        },
+    },
+    TaskType {
+        name: "height",
+        about: "Height [m]: z of the position",
+        keys: &[],
+        optional: OF_FRAME,
+        one_of: &[],
+        goal: ANY,
+        read: |_, _, _| Some(TaskKind::Height),
+    },
+    arm_types::POSTURE,
+    arm_types::JOINT_SPEED,
+    arm_types::MANIPULABILITY,
+    arm_types::SMALLEST_SINGULAR_VALUE,
+    arm_types::ELBOW,
 ];
 
 /// The type of that name.
 pub(super) fn by_name(name: &str) -> Option<&'static TaskType> {
     ALL.iter().find(|task_type| task_type.name == name)
-}
-
-/// What a task measures, as it stands in the file: the type's name, then its own keys and values.
-pub(super) fn written(kind: &TaskKind) -> (&'static str, Vec<(&'static str, String)>) {
-    match kind {
-        TaskKind::Position => ("position", vec![]),
-        TaskKind::Coordinate { axis } => ("coordinate", vec![(keys::AXIS.name, text(axis.name()))]),
-        TaskKind::Distance { point_m, motion } => {
-            let mut values = vec![(keys::POINT_M.name, vector(point_m))];
-            values.extend(motion.iter().flat_map(motion::written));
-            ("distance", values)
-        }
-        TaskKind::FieldOfView { direction } => (
-            "field_of_view",
-            vec![(keys::DIRECTION.name, vector(direction))],
-        ),
-        TaskKind::Joint { joint } => ("joint", vec![(keys::JOINT.name, joint.to_string())]),
-    }
 }

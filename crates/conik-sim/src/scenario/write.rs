@@ -10,7 +10,7 @@ use super::damping;
 use super::key::Key;
 use super::keys;
 use super::robot_source::{PlacesConfig, RobotSource, UrdfConfig};
-use super::task_types;
+use super::written::written;
 
 impl Scenario {
     /// The scenario as the text of a scenario file: every setting of robot and control
@@ -134,9 +134,9 @@ fn write_control(control: &Control, file: &mut Lines) {
 fn write_task(task: &TaskConfig, file: &mut Lines) {
     file.header(&keys::TASK);
     file.line(keys::NAME.name, &text(&task.name));
-    let (type_name, values) = task_types::written(&task.kind);
+    let (type_name, values) = written(&task.kind);
     file.line(keys::TYPE.name, &text(type_name));
-    for (name, value) in values {
+    for (name, value) in values.into_iter().chain(task.frames.written()) {
         file.line(name, &value);
     }
     match &task.goal {
@@ -155,6 +155,11 @@ fn write_task(task: &TaskConfig, file: &mut Lines) {
             gain_per_s,
         } => {
             match (&task.kind, desired.as_slice()) {
+                (TaskKind::Orientation { .. } | TaskKind::Pose { .. }, _) => {}
+                (TaskKind::JointSpeed { .. }, _) => return write_damping(task, file),
+                (TaskKind::Posture { .. }, positions) => {
+                    file.line(keys::DESIRED_RAD.name, &vector(positions));
+                }
                 (TaskKind::Position, point) => file.line(keys::TARGET_M.name, &vector(point)),
                 (_, [value]) => file.number(&keys::DESIRED, *value),
                 (_, values) => file.line(keys::DESIRED.name, &vector(values)),
@@ -179,6 +184,10 @@ fn write_task(task: &TaskConfig, file: &mut Lines) {
             }
         }
     }
+    write_damping(task, file);
+}
+
+fn write_damping(task: &TaskConfig, file: &mut Lines) {
     if let Some((key, value)) = damping::written(task.damping) {
         file.line(key.name, &value);
     }

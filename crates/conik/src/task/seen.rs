@@ -84,11 +84,12 @@ impl Seen {
 
     pub(crate) fn check(self, robot: &Robot) -> Result<(), &'static str> {
         if !robot.has(self.frame) || !robot.has(self.from) {
-            Err("the robot has no such link")
-        } else if self.frame == self.from {
-            Err("a frame does not move as it sees itself")
-        } else {
-            Ok(())
+            return Err("the robot has no such link");
         }
+        let body = |frame| robot.attachment(frame).map(|(body, _)| body);
+        if body(self.frame) == body(self.from) {
+            return Err("no joint is between the frame and the one that it is seen from");
+        }
+        Ok(())
     }
 }

@@ -1,0 +1,104 @@
+//! The types of task that concern orientations.
+
+use std::f64::consts::PI;
+
+use super::config::TaskKind;
+use super::keys;
+use super::motion;
+use super::orientation;
+use super::task_types::{GoalShape, OF_FRAME, OF_FRAME_AND_MOVING_POINT, TaskType};
+
+pub(super) const ORIENTATION: TaskType = TaskType {
+    name: "orientation",
+    about: "Orientation against a desired one: the rotation vector between them [rad]; cannot be a set, \
+            \"orientation_angle\" can",
+    keys: &[],
+    optional: OF_FRAME,
+    one_of: &[&keys::DESIRED_RPY_DEG, &keys::DESIRED_QUATERNION_WXYZ],
+    goal: GoalShape::Vanishing {
+        size: 3,
+        has_gain: true,
+    },
+    read: |table, _, found| {
+        Some(TaskKind::Orientation {
+            desired_quaternion_wxyz: orientation::read(table, found)?,
+        })
+    },
+};
+
+pub(super) const ORIENTATION_ANGLE: TaskType = TaskType {
+    name: "orientation_angle",
+    about: "Angle between the orientation and a desired one [rad], from 0 to π",
+    keys: &[],
+    optional: OF_FRAME,
+    one_of: &[&keys::DESIRED_RPY_DEG, &keys::DESIRED_QUATERNION_WXYZ],
+    goal: GoalShape::Scalar(0.0, PI),
+    read: |table, _, found| {
+        Some(TaskKind::OrientationAngle {
+            desired_quaternion_wxyz: orientation::read(table, found)?,
+        })
+    },
+};
+
+pub(super) const POSE: TaskType = TaskType {
+    name: "pose",
+    about: "Position [m] and orientation [rad] against desired ones, a metre counting as much as a radian; \
+            cannot be a set",
+    keys: &[&keys::TARGET_M],
+    optional: OF_FRAME,
+    one_of: &[&keys::DESIRED_RPY_DEG, &keys::DESIRED_QUATERNION_WXYZ],
+    goal: GoalShape::Vanishing {
+        size: 6,
+        has_gain: true,
+    },
+    read: |table, _, found| {
+        let target_m = table.vector(&keys::TARGET_M, found).required(table, found);
+        let desired_quaternion_wxyz = orientation::read(table, found);
+        Some(TaskKind::Pose {
+            target_m: target_m?,
+            desired_quaternion_wxyz: desired_quaternion_wxyz?,
+        })
+    },
+};
+
+pub(super) const POINTING_ANGLE: TaskType = TaskType {
+    name: "pointing_angle",
+    about: "Angle between an axis, the z axis unless `axis` is given, and a direction [rad], from 0 to π",
+    keys: &[&keys::DIRECTION],
+    optional: &[
+        (&keys::AXIS_IN_FRAME, None),
+        (&keys::FRAME, None),
+        (&keys::RELATIVE_TO, None),
+    ],
+    one_of: &[],
+    goal: GoalShape::Scalar(0.0, PI),
+    read: |table, _, found| {
+        let direction = table
+            .direction(&keys::DIRECTION, found)
+            .required(table, found);
+        let axis = table
+            .direction(&keys::AXIS_IN_FRAME, found)
+            .or([0.0, 0.0, 1.0]);
+        Some(TaskKind::PointingAngle {
+            axis: axis?,
+            direction: direction?,
+        })
+    },
+};
+
+pub(super) const LOOK_AT: TaskType = TaskType {
+    name: "look_at",
+    about: "Angle between the z axis and the line of sight to a point, which may move [rad], from 0 to π",
+    keys: &[&keys::POINT_M],
+    optional: OF_FRAME_AND_MOVING_POINT,
+    one_of: &[],
+    goal: GoalShape::Scalar(0.0, PI),
+    read: |table, _, found| {
+        let point_m = table.vector(&keys::POINT_M, found).required(table, found);
+        let motion = motion::read(table, found).map(Some).or(None);
+        Some(TaskKind::LookAt {
+            point_m: point_m?,
+            motion: motion?,
+        })
+    },
+};

@@ -1,0 +1,249 @@
+//! Every type of task by its keys: read, written and read again, and run.
+
+use conik_sim::experiment::Experiment;
+use conik_sim::scenario::{Scenario, schema};
+
+/// Type, and its keys but for the goal.
+const TYPES: &[(&str, &str)] = &[
+    ("position", "target_m = [0.4, 0, 0]\ngain_per_s = 1"),
+    ("coordinate", "axis = \"x\"\nmax = 2"),
+    ("distance", "point_m = [0, 0, 1]\nmin = 0.01"),
+    ("field_of_view", "direction = [0, 0, -1]\nmax = 2"),
+    ("joint", "joint = 2\nmax = 3"),
+    (
+        "orientation",
+        "desired_rpy_deg = [170, -20, 30]\ngain_per_s = 1",
+    ),
+    (
+        "orientation_angle",
+        "desired_quaternion_wxyz = [0, 0.3, 2, 1]\nmax = 3",
+    ),
+    (
+        "pose",
+        "target_m = [0.4, 0, 0]\ndesired_rpy_deg = [170, -20, 30]\ngain_per_s = 1",
+    ),
+    (
+        "pointing_angle",
+        "axis = [0, 3, 0.1]\ndirection = [1, 0, 7]\nmax = 3",
+    ),
+    (
+        "look_at",
+        "point_m = [1, 0, 0]\nvelocity_m_per_s = [0, 0.1, 0]\nmoves_until_s = 2\nmax = 3",
+    ),
+    ("plane", "normal = [0, -1, 3]\noffset_m = -0.5\nmin = -1"),
+    ("height", "min = -1"),
+    (
+        "posture",
+        "joints = [\"elbow_joint\", 1]\ndesired_deg = [90, 10]\ngain_per_s = 1",
+    ),
+    (
+        "joint_speed",
+        "joint = 6\nspeed_deg_per_s = 20\ndamping = \"none\"",
+    ),
+    ("manipulability", "part = \"orientation\"\nmin = 0"),
+    ("smallest_singular_value", "min = 0"),
+    (
+        "elbow",
+        "shoulder = \"link_1\"\nelbow = \"link_2\"\nwrist = \"link_6\"\ndirection = [0, 0, 2]\nmin = -3",
+    ),
+];
+
+const OF_JOINTS: &[&str] = &["joint", "posture", "joint_speed"];
+
+fn scenario(type_name: &str, keys: &str) -> String {
+    format!(
+        "[robot]\nmodel = \"ur5-paper\"\nq0_deg = [-48, -158, -108, -90, -85, 10]\n\n[[task]]\n\
+         name = \"it\"\ntype = \"{type_name}\"\n{keys}\n"
+    )
+}
+
+fn read(text: &str) -> Scenario {
+    Scenario::from_toml(text).unwrap_or_else(|errors| panic!("{text}\n{errors}"))
+}
+
+/// With the frames that the type may have.
+fn cases() -> Vec<(&'static str, String)> {
+    let mut cases = Vec::new();
+    for (name, keys) in TYPES {
+        cases.push((*name, scenario(name, keys)));
+        let seen = "relative_to = \"link_1\"";
+        if *name == "elbow" {
+            cases.push((*name, scenario(name, &format!("{keys}\n{seen}"))));
+        } else if !OF_JOINTS.contains(name) {
+            let frames = format!("{keys}\nframe = \"link_5\"\n{seen}");
+            cases.push((*name, scenario(name, &frames)));
+        }
+    }
+    cases
+}
+
+#[test]
+fn the_table_has_every_type() {
+    let schema = schema();
+    let types = schema["properties"]["task"]["items"]["oneOf"].as_array();
+    let known: Vec<&str> = types
+        .expect("types")
+        .iter()
+        .map(|known| known["title"].as_str().expect("a name"))
+        .collect();
+    for name in known {
+        assert!(TYPES.iter().any(|(tried, _)| *tried == name), "{name}");
+    }
+}
+
+#[test]
+fn what_is_written_reads_back_to_the_same() {
+    for (name, text) in cases() {
+        let scenario = read(&text);
+        let written = scenario.to_toml();
+        assert_eq!(read(&written), scenario, "{name}\n{written}");
+        let json = serde_json::to_string(&scenario).expect("it can be written");
+        let again: Scenario = serde_json::from_str(&json).expect("it can be read");
+        assert_eq!(again, scenario, "{name}\n{json}");
+    }
+}
+
+#[test]
+fn schema_takes_what_the_reader_takes() {
+    let validator = jsonschema::draft7::new(&schema()).expect("a schema");
+    for (name, text) in cases() {
+        let file: serde_json::Value = toml::from_str(&text).expect("TOML");
+        assert!(validator.is_valid(&file), "{name}\n{text}");
+    }
+}
+
+#[test]
+fn every_type_runs() {
+    for (name, text) in cases() {
+        let mut experiment = Experiment::new(&read(&text)).expect(name);
+        let mut q = experiment.q0;
+        for tick in 0..25 {
+            experiment.move_world(f64::from(tick) / 125.0);
+            let step = experiment.controller.step(&q).expect(name);
+            q = step.q_ref;
+        }
+        assert!(q.is_finite(), "{name}");
+        let is_set = text.contains("max = ") || text.contains("min = ");
+        assert_eq!(
+            q == experiment.q0,
+            is_set,
+            "{name}: only levels move the arm"
+        );
+    }
+}
+
+#[test]
+fn a_frame_moves_as_the_file_says() {
+    let text = scenario("height", "frame = \"link_2\"\nmin = -1");
+    let mut experiment = Experiment::new(&read(&text)).expect("sound");
+    let q0 = experiment.q0;
+    let mut kinematics = conik::Kinematics::new(&experiment.robot);
+    kinematics.update(&q0);
+    let expected = kinematics.world_from(conik::Frame::Link(2)).origin.z;
+    let task = experiment
+        .controller
+        .stack()
+        .find("it")
+        .expect("it is there");
+    let step = experiment.controller.step(&q0).expect("finite");
+    assert_eq!(step.value(task)[0], expected);
+}
+
+#[test]
+fn mistakes_are_told_with_what_would_be_right() {
+    let quaternion = "desired_quaternion_wxyz = [1, 0, 0]\ngain_per_s = 1";
+    for (type_name, keys, what) in [
+        (
+            "height",
+            "min = 0\nframe = \"link_7\"",
+            "the robot has no link \"link_7\"",
+        ),
+        (
+            "height",
+            "min = 0\nframe = \"lnk_3\"",
+            "did you mean \"link_3\"?",
+        ),
+        (
+            "joint",
+            "joint = 1\nmax = 1\nframe = \"link_1\"",
+            "`frame` is a key of type",
+        ),
+        (
+            "orientation",
+            "gain_per_s = 1",
+            "desired_rpy_deg = [180, 0, 90]",
+        ),
+        (
+            "orientation",
+            quaternion,
+            "expected four numbers, w, x, y and z; found 3",
+        ),
+        (
+            "orientation",
+            "desired_quaternion_wxyz = [0, 0, 0, 0]\ngain_per_s = 1",
+            "the quaternion 0 is no orientation",
+        ),
+        (
+            "orientation",
+            "desired_rpy_deg = [0, 0, 0]\ndesired_quaternion_wxyz = [1, 0, 0, 0]\ngain_per_s = 1",
+            "state it once",
+        ),
+        (
+            "orientation",
+            "desired_rpy_deg = [0, 0, 0]\nmax = 1",
+            "a task of type \"orientation\" cannot be a set",
+        ),
+        (
+            "pose",
+            "desired_rpy_deg = [0, 0, 0]\ngain_per_s = 1",
+            "target_m",
+        ),
+        (
+            "pointing_angle",
+            "direction = [0, 0, 0]\nmax = 1",
+            "the zero vector has no direction",
+        ),
+        (
+            "pointing_angle",
+            "direction = [0, 0, 1]\nmin = 4",
+            "its values are from",
+        ),
+        (
+            "plane",
+            "normal = [0, 0, 0]\nmin = 0",
+            "the zero vector has no direction",
+        ),
+        (
+            "posture",
+            "desired_deg = [1, 2]\ngain_per_s = 1",
+            "of 6 joints, found 2 numbers",
+        ),
+        (
+            "posture",
+            "joints = [1, 1]\ndesired_deg = [1, 2]\ngain_per_s = 1",
+            "joint 1 stands in the list twice",
+        ),
+        (
+            "posture",
+            "desired_deg = [1, 2, 3, 4, 5, 6]",
+            "an equality task needs a gain",
+        ),
+        ("joint_speed", "joint = 1", "speed_deg_per_s"),
+        (
+            "joint_speed",
+            "joint = 1\nspeed_deg_per_s = 1\ngain_per_s = 1",
+            "`gain_per_s`",
+        ),
+        (
+            "manipulability",
+            "part = \"wrist\"\nmin = 0",
+            "unknown name \"wrist\"",
+        ),
+        ("manipulability", "max = -1", "its values are never below 0"),
+        ("elbow", "direction = [0, 0, 1]\nmin = 0", "shoulder"),
+    ] {
+        let errors = Scenario::from_toml(&scenario(type_name, keys)).expect_err(keys);
+        let told = errors.to_string();
+        assert!(told.contains(what), "{type_name}, {keys}: {told}");
+    }
+}
