@@ -1,9 +1,9 @@
 //! What tasks refuse, and what those ask for that are no plain differences: turns and speeds.
 
 use conik::{
-    Body, Controller, Elbow, Frame, FramePose, Joint, JointPosition, JointSpeed, JointVec,
-    Kinematics, LookAt, Orientation, OrientationAngle, Plane, PointingAngle, Pose, Posture, Robot,
-    RobotBuilder, Settings, Stack, Task, Vec3,
+    Body, Controller, Elbow, Frame, FramePose, JacobianMut, Joint, JointKind, JointPosition,
+    JointSpeed, JointVec, Kinematics, LookAt, Mimic, Orientation, OrientationAngle, Plane,
+    PointingAngle, Pose, Posture, Robot, RobotBuilder, Settings, Stack, Task, Vec3,
 };
 use std::f64::consts::PI;
 
@@ -148,4 +148,60 @@ fn elbow_swivels_the_shorter_way_past_half_a_turn() {
     }
     assert!((q[0] - (2.0 * PI - 3.0)).abs() < 1e-9, "{}", q[0]);
     assert!(controller.last_step().error_norm(task) < 1e-9);
+}
+
+#[test]
+fn height_above_a_plane_counts_from_the_plane_and_falls_as_it_rises() {
+    let robot = ur5();
+    let mut kinematics = Kinematics::new(&robot);
+    kinematics.update(&[0.3, -1.2, 1.4, -0.6, 1.0, 0.2]);
+    let tool = kinematics.world_from(Frame::Tool).origin;
+    let mut plane = Plane::of_tool_to([0.0, 0.0, 2.0], 0.0);
+    plane.set_offset_moving(0.1, 0.3);
+    let (mut now, mut later) = ([0.0], [0.0]);
+    plane.value(&kinematics, &mut now);
+    plane.value_ahead(&kinematics, 0.5, &mut later);
+    assert!((now[0] - (tool.z - 0.1)).abs() < 1e-15, "{now:?}");
+    assert!((later[0] - (tool.z - 0.25)).abs() < 1e-15, "{later:?}");
+}
+
+/// A finger that follows the one joint at three times its speed.
+fn follower() -> Robot {
+    let mut robot = RobotBuilder::new("follower");
+    let hand = robot
+        .joint(Body::FIXED, Pose::IDENTITY, Joint::revolute("hand"))
+        .expect("sound");
+    let at = Pose::at(Vec3::new(0.0, 0.1, 0.0));
+    let mimic = Mimic {
+        joint: 0,
+        multiplier: 3.0,
+        offset: 0.0,
+    };
+    let finger = robot
+        .follower_between(hand, at, (JointKind::Revolute, mimic, "finger"), at)
+        .expect("sound");
+    robot.link("tip", finger, at).expect("sound");
+    robot.build().expect("sound")
+}
+
+#[test]
+fn bounds_on_speeds_count_what_follows_a_joint() {
+    let robot = follower();
+    let mut kinematics = Kinematics::new(&robot);
+    let tasks: Vec<Box<dyn Task>> = vec![
+        Box::new(Plane::of_tool_to([1.0, 0.0, 0.0], 0.0)),
+        Box::new(PointingAngle::of_tool_along([1.0, 0.0, 0.0]).with_axis([0.0, 1.0, 0.0])),
+        Box::new(OrientationAngle::of_tool_to(Pose::IDENTITY)),
+    ];
+    for task in tasks {
+        let mut steepest: f64 = 0.0;
+        for i in 0..60 {
+            kinematics.update(&[0.1 * f64::from(i)]);
+            let mut row = [0.0];
+            task.jacobian(&kinematics, &mut JacobianMut::new(&mut row, 1));
+            steepest = steepest.max(row[0].abs());
+        }
+        let bound = task.steepness(&kinematics);
+        assert!(steepest <= bound + 1e-12, "{task:?}: {steepest} > {bound}");
+    }
 }
