@@ -67,7 +67,8 @@ impl Experiment {
         let mut stack = Stack::new(&robot);
         let mut waypoints = None;
         let mut movers = Vec::new();
-        for task in &scenario.tasks {
+        let pairs = scenario.collision.tasks(&robot);
+        for task in pairs.iter().chain(&scenario.tasks) {
             let id = add_task(&mut stack, &robot, task)?;
             movers.extend(Mover::of(id, &task.kind));
             stack.setpoints().set_damping(id, damping(task.damping))?;

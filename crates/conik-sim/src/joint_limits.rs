@@ -12,9 +12,10 @@ pub const LIMIT: &str = "limit/";
 
 impl Scenario {
     /// Every task that the controller has, the most important first: the sets that keep the joints'
-    /// position limits, which no scenario lists, then those of the scenario.
+    /// position limits and those that keep shapes apart, which no scenario lists, then those of the
+    /// scenario.
     pub fn all_tasks(&self) -> Vec<TaskConfig> {
-        let robot = limited_robot(&self.robot);
+        let robot = limited_robot(&self.robot).ok();
         let joints = robot.iter().flat_map(Robot::joints).enumerate();
         let limits = joints.filter_map(|(index, joint)| {
             let (min, max) = joint.limits.position?;
@@ -31,7 +32,11 @@ impl Scenario {
                 damping: Damping::default(),
             })
         });
-        limits.chain(self.tasks.iter().cloned()).collect()
+        let pairs = robot.iter().flat_map(|robot| self.collision.tasks(robot));
+        limits
+            .chain(pairs)
+            .chain(self.tasks.iter().cloned())
+            .collect()
     }
 }
 

@@ -10,6 +10,7 @@
 pub mod announced;
 pub mod arm;
 pub mod check;
+pub mod collision_pairs;
 pub mod cycle_times;
 pub mod experiment;
 pub mod histogram;

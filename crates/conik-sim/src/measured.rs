@@ -25,6 +25,7 @@ pub(crate) fn add_task(
     let from = config.frames.relative_to.as_ref();
     let from = from.map_or(Ok(Frame::World), link)?;
     match config.kind {
+        TaskKind::Shapes(ref pair) => add(stack, config, pair.task(robot)?),
         TaskKind::Position => add(stack, config, Position::of(frame).relative_to(from)),
         TaskKind::Coordinate { axis } => {
             let axis = match axis {

@@ -1,6 +1,7 @@
-//! What moves in a run besides the arm: the points of `distance` and `look_at` tasks.
+//! What moves in a run besides the arm: the points of `distance` and `look_at` tasks, and
+//! obstacles.
 
-use conik::{Distance, LookAt, Setpoints, TaskId};
+use conik::{Distance, LookAt, Setpoints, ShapeDistance, TaskId};
 
 use crate::scenario::{Motion, TaskKind};
 
@@ -31,6 +32,11 @@ impl Mover {
                 start_m: point_m,
                 motion,
             }),
+            TaskKind::Shapes(ref pair) => Some(Self {
+                task,
+                start_m: pair.other.point(),
+                motion: pair.motion?,
+            }),
             _ => None,
         }
     }
@@ -47,6 +53,8 @@ impl Mover {
             distance.set_point_moving(point, velocity);
         } else if let Some(look) = setpoints.task_mut::<LookAt>(self.task) {
             look.set_point_moving(point, velocity);
+        } else if let Some(distance) = setpoints.task_mut::<ShapeDistance>(self.task) {
+            distance.set_shift_moving(self.motion.point_at([0.0; 3], t_s), velocity);
         }
     }
 }

@@ -84,7 +84,7 @@ const CASES: &[Case] = &[
     // The file.
     case("title = \"good\"", "titel = \"x\"", "titel", 1, &["unknown key", "did you mean `title`?"]),
     case("title = \"good\"", "title = 3", "title", 1, &["expected text in quotes", "the number 3"]),
-    case("title = \"good\"", "colour = 3", "colour", 1, &["unknown key", "`robot`, `control`, `ur`, `task`"]),
+    case("title = \"good\"", "colour = 3", "colour", 1, &["unknown key", "`robot`, `control`, `ur`, `shape`, `obstacle`, `self_collision`, `task`"]),
     case("[control]", "[contol]", "contol", 5, &["did you mean `control`?"]),
     // [robot]
     case("model = \"ur5-paper\"", "model = \"ur6\"", "robot.model", 3, &["unknown robot \"ur6\"", "\"ur5-paper\""]),

@@ -89,6 +89,11 @@ impl Motion {
         self.forward | self.backward == 0
     }
 
+    /// How many joints are between the two frames; those that follow others count too.
+    pub fn joints(self) -> usize {
+        (self.forward | self.backward).count_ones() as usize
+    }
+
     /// 1 for a body that moves the frame, −1 for one that moves the other frame, else 0.
     #[inline]
     fn sign(self, body: usize) -> f64 {

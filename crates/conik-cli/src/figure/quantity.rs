@@ -14,7 +14,8 @@ pub fn unit<'a>(run: &'a Run, task: &TaskConfig) -> &'a str {
             | TaskKind::Coordinate { .. }
             | TaskKind::Distance { .. }
             | TaskKind::Plane { .. }
-            | TaskKind::Height => "m",
+            | TaskKind::Height
+            | TaskKind::Shapes(_) => "m",
             TaskKind::Joint { .. }
             | TaskKind::Orientation { .. }
             | TaskKind::OrientationAngle { .. }
@@ -58,6 +59,7 @@ pub fn quantity(run: &Run, task: &TaskConfig) -> String {
         TaskKind::Coordinate { axis: Axis::Y } => of_frame("y"),
         TaskKind::Coordinate { axis: Axis::Z } => of_frame("z"),
         TaskKind::Distance { .. } => of_other_frame("distance"),
+        TaskKind::Shapes(_) => "distance".to_owned(),
         TaskKind::FieldOfView { .. } => of_other_frame("view error"),
         TaskKind::Orientation { .. } => of_frame("orientation"),
         TaskKind::OrientationAngle { .. } => of_other_frame("angle to turn"),

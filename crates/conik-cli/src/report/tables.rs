@@ -103,6 +103,11 @@ fn kind(run: &Run, task: &TaskConfig) -> String {
         TaskKind::LookAt { point_m, .. } => {
             format!("{} at {}", quantity::quantity(run, task), point(&point_m))
         }
+        TaskKind::Shapes(ref pair) => format!(
+            "{} to {}",
+            pair.shape.type_name().replace('_', "-"),
+            pair.other.type_name().replace('_', "-"),
+        ),
         _ => quantity::quantity(run, task),
     }
 }

@@ -90,6 +90,29 @@ fn angles_heights_and_singularities_make_a_difference() {
 }
 
 #[test]
+fn links_slide_along_the_shelf_and_miss_each_other() {
+    let shelf = run("shelf", "shelf.toml", |text| text);
+    for (pair, distance) in [
+        ("forearm/post", 0.02),
+        ("hand/board", 0.01),
+        ("hand/post", 0.02),
+    ] {
+        let task = &shelf["tasks"][pair];
+        assert!(task["active_s"].as_f64() > Some(0.5), "{pair}: {task}");
+        let closest = task["min"].as_f64().unwrap();
+        assert!(
+            (distance..distance + 1e-6).contains(&closest),
+            "{pair}: {closest}"
+        );
+    }
+    assert!(shelf["tasks"]["forearm/hand"]["min"].as_f64() > Some(0.02));
+    assert!(
+        shelf["tasks"].get("upper_arm/forearm").is_none(),
+        "neighbours"
+    );
+}
+
+#[test]
 fn tool_gives_way_to_the_ball_that_crosses_its_way() {
     let crossing = run("crossing", "crossing.toml", |text| text);
     assert!(crossing["tasks"]["ball"]["active_s"].as_f64() > Some(1.0));

@@ -295,6 +295,7 @@ impl Invention {
             settings: Settings {
                 robot: "ideal".into(),
                 scenario: Scenario {
+                    collision: conik_sim::scenario::Collision::default(),
                     title: Some(self.title.clone()),
                     robot: RobotConfig {
                         limits: LimitsConfig::default(),

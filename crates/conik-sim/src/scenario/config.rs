@@ -2,11 +2,13 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::collision::Collision;
 use super::damping::Damping;
 use super::frames::Frames;
 use super::motion::Motion;
 use super::robot_source::{PlacesConfig, RobotSource};
 use super::ur::UrSettings;
+use crate::collision_pairs::ShapePair;
 
 /// One run: a robot, a start, the settings of the controller and the tasks in decreasing priority.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -20,6 +22,9 @@ pub struct Scenario {
     /// How a Universal Robots arm is driven, if the file says so.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub ur: Option<UrSettings>,
+    /// What must not collide.
+    #[serde(flatten)]
+    pub collision: Collision,
     /// The tasks, the most important first.
     #[serde(rename = "task")]
     pub tasks: Vec<TaskConfig>,
@@ -241,6 +246,8 @@ pub enum TaskKind {
         /// Where the elbow is at 0, of length 1.
         direction: [f64; 3],
     },
+    /// Distance of two shapes [m]; no type of the file, but what shapes and obstacles in it become.
+    Shapes(Box<ShapePair>),
 }
 
 /// Which rows of a frame's Jacobian count.

@@ -1,6 +1,7 @@
 //! Reading `[control]`.
 
 use super::config::Control;
+use super::key::Key;
 use super::keys;
 use super::mistake::Mistakes;
 use super::place::Placed;
@@ -53,7 +54,7 @@ pub(super) fn read(table: &Table, found: &mut Mistakes) -> ReadControl {
     let mode_rule = table.choice(&keys::MODE_RULE, found).or(default.mode_rule);
     let border = table.choice(&keys::BORDER, found).or(default.border);
     let recursion = table.choice(&keys::RECURSION, found).or(default.recursion);
-    let groups = read_groups(table, found);
+    let groups = read_groups(table, &keys::EXCLUSIVE, found);
     check_ticks(table, rate_hz, duration_s, found);
 
     let whole = || {
@@ -104,9 +105,13 @@ fn check_ticks(table: &Table, rate_hz: Option<f64>, duration_s: Option<f64>, fou
     }
 }
 
-/// `exclusive`; `None` where a value is of the wrong kind.
-fn read_groups(table: &Table, found: &mut Mistakes) -> Option<Vec<Group>> {
-    let Some(list) = table.value(&keys::EXCLUSIVE) else {
+/// Groups of names; `None` where a value is of the wrong kind.
+pub(super) fn read_groups(
+    table: &Table,
+    key: &'static Key,
+    found: &mut Mistakes,
+) -> Option<Vec<Group>> {
+    let Some(list) = table.value(key) else {
         return Some(vec![]);
     };
     let groups = list.lists("a list of task names", found)?;

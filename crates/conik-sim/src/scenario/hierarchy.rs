@@ -12,7 +12,8 @@ use super::place;
 use super::suggest::nearest;
 use super::task::{ReadTask, Role};
 
-/// What is wrong with the tasks of a robot that has position limits at `limits` of its joints.
+/// What is wrong with the tasks of a controller that has `limits` others besides: those that keep the
+/// joints' position limits, and those that keep shapes apart.
 pub(super) fn check(tasks: &[ReadTask], limits: usize, groups: &[Group], found: &mut Mistakes) {
     names::check_unique(tasks, found);
     check_low_priority_gains(tasks, found);
@@ -97,7 +98,7 @@ fn check_one_has_waypoints(tasks: &[ReadTask], found: &mut Mistakes) {
     }
 }
 
-/// The controller has a task for every joint with position limits besides those of the file. The
+/// The controller has tasks for position limits and for pairs of shapes besides those of the file. The
 /// first that it cannot have is reported.
 fn check_number(tasks: &[ReadTask], limits: usize, found: &mut Mistakes) {
     let most = MAX_TASKS.saturating_sub(limits);
@@ -107,8 +108,8 @@ fn check_number(tasks: &[ReadTask], limits: usize, found: &mut Mistakes) {
     let help = match limits {
         0 => format!("a scenario has at most {most}"),
         _ => format!(
-            "the controller has at most {MAX_TASKS}, and {limits} of them keep the joints' position \
-             limits: give at most {most}"
+            "the controller has at most {MAX_TASKS}, and {limits} of them keep position limits or \
+             shapes apart: give at most {most}"
         ),
     };
     found.add(

@@ -5,6 +5,7 @@ use super::config::{Border, ModeRule, Recursion};
 use super::damping::DampingRule;
 use super::key::{Holds, Key, Range};
 pub(super) use super::robot_keys::*;
+pub(super) use super::shape_keys::*;
 pub(super) use super::task_keys::*;
 pub(super) use super::ur_keys::*;
 
@@ -18,7 +19,16 @@ pub(super) const MOST_TICKS: f64 = 50_000_000.0;
 const GAIN: Range = Range::positive(20_000.0);
 
 /// The file itself.
-pub(super) const FILE: &[&Key] = &[&TITLE, &ROBOT, &CONTROL, &UR, &TASK];
+pub(super) const FILE: &[&Key] = &[
+    &TITLE,
+    &ROBOT,
+    &CONTROL,
+    &UR,
+    &SHAPE,
+    &OBSTACLE,
+    &SELF_COLLISION,
+    &TASK,
+];
 
 pub(super) const TITLE: Key = Key::new(
     "title",

@@ -11,11 +11,13 @@
 
 mod arm_types;
 mod choice;
+mod collision;
 mod config;
 mod control;
 mod damping;
 mod direction;
 mod frames;
+mod geometry;
 mod goal;
 mod hierarchy;
 mod joints;
@@ -36,6 +38,7 @@ mod robot_keys;
 mod robot_source;
 mod robots;
 mod schema;
+mod shape_keys;
 mod suggest;
 mod syntax;
 mod table;
@@ -50,12 +53,14 @@ mod write;
 mod written;
 
 pub use choice::Choice;
+pub use collision::{Collision, LinkShape, Obstacle, SelfCollision};
 pub use config::{
     Axis, Border, Control, GoalConfig, LimitsConfig, ModeRule, Part, Recursion, RobotConfig,
     Scenario, TaskConfig, TaskKind,
 };
 pub use damping::{Damping, DampingRule};
 pub use frames::Frames;
+pub use geometry::Geometry;
 pub use load::{LoadError, MAX_FILE_BYTES};
 pub use mistake::{Mistake, ScenarioErrors};
 pub use motion::Motion;

@@ -2,6 +2,7 @@
 
 use std::collections::{HashMap, HashSet};
 
+use super::config::TaskConfig;
 use super::keys;
 use super::mistake::{Mistakes, quoted};
 use super::place::Placed;
@@ -27,7 +28,7 @@ const JOINT_COLUMNS: &[(&str, &str)] = &[
 /// Characters of a task's name. The log joins names with `+`, and `,` parts its columns.
 pub(super) const PATTERN: &str = "^[A-Za-z0-9_./-]+$";
 
-fn is_name_character(c: char) -> bool {
+pub(super) fn is_name_character(c: char) -> bool {
     c.is_ascii_alphanumeric() || matches!(c, '_' | '.' | '/' | '-')
 }
 
@@ -90,6 +91,38 @@ pub(super) fn read(table: &Table, found: &mut Mistakes) -> Option<Placed<String>
         );
     }
     Some(placed)
+}
+
+/// Notes names of tasks that are those of sets which keep shapes apart.
+pub(super) fn check_free(tasks: &[ReadTask], sets: &[TaskConfig], found: &mut Mistakes) {
+    let mut taken: HashSet<&str> = HashSet::new();
+    for set in sets {
+        // Such as `a/b` and `c` with `a` and `b/c`.
+        if !taken.insert(&set.name) {
+            found.add(
+                0..0,
+                "shape",
+                format!(
+                    "two pairs of shapes would both be named {}",
+                    quoted(&set.name)
+                ),
+                "give shapes and obstacles names without `/`",
+            );
+        }
+    }
+    for name in tasks.iter().filter_map(|task| task.name.as_ref()) {
+        if taken.contains(name.value.as_str()) {
+            found.add(
+                name.span.clone(),
+                &*name.path,
+                format!(
+                    "{} is the name of the set that keeps those shapes apart",
+                    quoted(&name.value)
+                ),
+                "take another name",
+            );
+        }
+    }
 }
 
 /// Notes names that two tasks share, and names that are the error column of another task.

@@ -2,11 +2,13 @@
 
 use std::path::Path;
 
+use super::collision;
 use super::config::{LimitsConfig, Scenario};
 use super::control::{self, ReadControl};
 use super::hierarchy;
 use super::keys;
 use super::mistake::{Mistakes, ScenarioErrors};
+use super::names;
 use super::robot;
 use super::robot_source;
 use super::robots::RobotFacts;
@@ -14,6 +16,7 @@ use super::syntax;
 use super::table::{Entry, Table};
 use super::task::{self, ReadTask};
 use super::ur;
+use crate::joint_limits::limited_robot;
 
 /// What a task must know of the tables above it; `None` where they are wrong.
 #[derive(Clone, Copy, Debug)]
@@ -92,6 +95,13 @@ fn read_file(file: &Table, folder: &Path, found: &mut Mistakes) -> Option<Scenar
         Entry::Given(table) => ur::read(&table, facts, found).map(Some),
     };
 
+    let limited = robot.as_ref().and_then(|robot| limited_robot(robot).ok());
+    let collision = collision::read(file, limited.as_ref(), found);
+    let sets = match (&collision, &limited) {
+        (Some(collision), Some(robot)) => collision.tasks(robot),
+        _ => Vec::new(),
+    };
+
     let surroundings = Surroundings {
         robot: facts,
         rate_hz: control.rate_hz,
@@ -112,7 +122,8 @@ fn read_file(file: &Table, folder: &Path, found: &mut Mistakes) -> Option<Scenar
         let limits = robot
             .as_ref()
             .map_or(0, |robot| position_limits(&robot.limits, facts));
-        hierarchy::check(tasks, limits, &control.groups, found);
+        names::check_free(tasks, &sets, found);
+        hierarchy::check(tasks, limits + sets.len(), &control.groups, found);
     }
 
     Some(Scenario {
@@ -120,6 +131,7 @@ fn read_file(file: &Table, folder: &Path, found: &mut Mistakes) -> Option<Scenar
         robot: robot?,
         control: control.whole?,
         ur: ur?,
+        collision: collision?,
         tasks: tasks?
             .into_iter()
             .map(|task| task.config)

@@ -3,6 +3,7 @@
 use serde_json::{Map, Value, json};
 
 use super::config::Control;
+use super::geometry;
 use super::key::{Holds, Key, Range};
 use super::keys;
 use super::names;
@@ -125,7 +126,18 @@ fn holds(key: &Key) -> Value {
         }),
         Holds::Table if key.name == keys::ROBOT.name => robot(),
         Holds::Table if key.name == keys::UR.name => ur(),
+        Holds::Table if key.name == keys::SELF_COLLISION.name => {
+            table(keys::SELF_COLLISION_KEYS, &[keys::DISTANCE_M.name])
+        }
         Holds::Table => table(keys::CONTROL_KEYS, &[]),
+        Holds::Tables if key.name == keys::SHAPE.name => {
+            let required = [keys::LINK.name];
+            json!({ "type": "array", "items": shape(keys::SHAPE_KEYS, &required) })
+        }
+        Holds::Tables if key.name == keys::OBSTACLE.name => {
+            let required = [keys::NAME.name, keys::DISTANCE_M.name];
+            json!({ "type": "array", "items": shape(keys::OBSTACLE_KEYS, &required) })
+        }
         Holds::Tables => json!({ "type": "array", "items": task(), "minItems": 1 }),
     }
 }
@@ -208,6 +220,24 @@ fn ur() -> Value {
     let rotation = json!({ keys::TCP_ROTATION_RAD.name: [keys::TCP_OFFSET_M.name] });
     set(&mut schema, "dependencies", rotation);
     schema
+}
+
+/// A table with a shape of any type, besides keys of its own.
+fn shape(own: &[&'static Key], required: &[&str]) -> Value {
+    let types = geometry::ALL.iter().map(|geometry| {
+        let known: Vec<_> = own.iter().copied().chain(geometry.all_keys()).collect();
+        let mut needed = vec![keys::TYPE.name];
+        needed.extend(required);
+        needed.extend(geometry.keys.iter().map(|key| key.name));
+        let mut schema = table(&known, &needed);
+        schema["properties"]["type"] = json!({ "const": geometry.name });
+        if own.iter().any(|key| key.name == keys::MOVES_UNTIL_S.name) {
+            let velocity = json!({ keys::MOVES_UNTIL_S.name: [keys::VELOCITY_M_PER_S.name] });
+            set(&mut schema, "dependencies", velocity);
+        }
+        schema
+    });
+    json!({ "type": "object", "oneOf": types.collect::<Vec<_>>() })
 }
 
 fn task() -> Value {

@@ -3,12 +3,15 @@
 use std::fmt::Write;
 
 use super::choice::Choice;
+use super::collision::Collision;
 use super::config::{
     Control, GoalConfig, LimitsConfig, RobotConfig, Scenario, TaskConfig, TaskKind,
 };
 use super::damping;
+use super::geometry::Geometry;
 use super::key::Key;
 use super::keys;
+use super::motion;
 use super::robot_source::{PlacesConfig, RobotSource, UrdfConfig};
 use super::written::written;
 
@@ -28,6 +31,7 @@ impl Scenario {
                 file.line(key.name, &value);
             }
         }
+        write_collision(&self.collision, &mut file);
         for task in &self.tasks {
             write_task(task, &mut file);
         }
@@ -129,6 +133,37 @@ fn write_control(control: &Control, file: &mut Lines) {
         keys::EXCLUSIVE.name,
         &list(control.exclusive.iter().map(group)),
     );
+}
+
+fn write_collision(collision: &Collision, file: &mut Lines) {
+    for shape in &collision.shapes {
+        file.header(&keys::SHAPE);
+        file.line(keys::NAME.name, &text(&shape.name));
+        file.line(keys::LINK.name, &text(&shape.link));
+        write_geometry(&shape.geometry, file);
+    }
+    for obstacle in &collision.obstacles {
+        file.header(&keys::OBSTACLE);
+        file.line(keys::NAME.name, &text(&obstacle.name));
+        write_geometry(&obstacle.geometry, file);
+        file.number(&keys::DISTANCE_M, obstacle.distance_m);
+        for (name, value) in obstacle.motion.iter().flat_map(motion::written) {
+            file.line(name, &value);
+        }
+    }
+    if let Some(own) = &collision.self_collision {
+        file.header(&keys::SELF_COLLISION);
+        file.number(&keys::DISTANCE_M, own.distance_m);
+        let group = |names: &Vec<String>| list(names.iter().map(|name| text(name)));
+        file.line(keys::EXCLUDE.name, &list(own.exclude.iter().map(group)));
+    }
+}
+
+fn write_geometry(geometry: &Geometry, file: &mut Lines) {
+    file.line(keys::TYPE.name, &text(geometry.type_name()));
+    for (name, value) in geometry.written() {
+        file.line(name, &value);
+    }
 }
 
 fn write_task(task: &TaskConfig, file: &mut Lines) {

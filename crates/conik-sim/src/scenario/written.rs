@@ -15,6 +15,8 @@ pub(super) fn written(kind: &TaskKind) -> (&'static str, Vec<Line>) {
         TaskKind::Position => ("position", vec![]),
         TaskKind::Coordinate { axis } => ("coordinate", vec![(keys::AXIS.name, text(axis.name()))]),
         TaskKind::Distance { point_m, motion } => ("distance", moving(point_m, motion.as_ref())),
+        // No task of a file: shapes and obstacles stand for it.
+        TaskKind::Shapes(_) => ("shapes", vec![]),
         TaskKind::FieldOfView { direction } => (
             "field_of_view",
             vec![(keys::DIRECTION.name, vector(direction))],

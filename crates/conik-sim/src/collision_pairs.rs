@@ -1,0 +1,144 @@
+//! Which shapes are kept apart, and the sets that do it.
+
+use conik::{Frame, Kinematics, Robot, ShapeDistance};
+use serde::{Deserialize, Serialize};
+
+use crate::experiment::ExperimentError;
+use crate::scenario::{
+    Collision, Damping, Frames, Geometry, GoalConfig, LinkShape, Motion, TaskConfig, TaskKind,
+};
+
+/// Two shapes that are kept apart.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ShapePair {
+    /// The link that the first is on.
+    pub link: String,
+    /// The first, in the frame of its link.
+    pub shape: Geometry,
+    /// The link that the other is on; `None`: it is in the world.
+    pub other_link: Option<String>,
+    /// The other, in the frame of its link or in the world.
+    pub other: Geometry,
+    /// How the other moves, if it does.
+    pub motion: Option<Motion>,
+}
+
+impl ShapePair {
+    /// What measures their distance.
+    pub(crate) fn task(&self, robot: &Robot) -> Result<ShapeDistance, ExperimentError> {
+        let frame = |link: &String| {
+            let frame = robot.frame(link);
+            frame.ok_or_else(|| ExperimentError::UnknownLink(link.clone()))
+        };
+        let (shape, other) = (self.shape.shape(), self.other.shape());
+        let distance = ShapeDistance::between(frame(&self.link)?, shape, other);
+        Ok(match &self.other_link {
+            Some(link) => distance.relative_to(frame(link)?),
+            None => distance,
+        })
+    }
+}
+
+impl Collision {
+    /// A high-priority set for every two shapes that can meet: those of obstacles first, in the order of
+    /// the file, named `shape/obstacle`, then those of the robot with itself, named `shape/shape`.
+    pub(crate) fn tasks(&self, robot: &Robot) -> Vec<TaskConfig> {
+        let links = Links::of(robot);
+        let mut tasks = Vec::new();
+        for obstacle in &self.obstacles {
+            for shape in &self.shapes {
+                if links.joints_between(&shape.link, None) == 0 {
+                    continue;
+                }
+                let pair = ShapePair {
+                    link: shape.link.clone(),
+                    shape: shape.geometry.clone(),
+                    other_link: None,
+                    other: obstacle.geometry.clone(),
+                    motion: obstacle.motion,
+                };
+                tasks.push(kept_apart(
+                    &shape.name,
+                    &obstacle.name,
+                    pair,
+                    obstacle.distance_m,
+                ));
+            }
+        }
+        let Some(own) = &self.self_collision else {
+            return tasks;
+        };
+        for (i, shape) in self.shapes.iter().enumerate() {
+            for other in &self.shapes[i + 1..] {
+                let excluded = |group: &Vec<String>| {
+                    group.contains(&shape.name) && group.contains(&other.name)
+                };
+                // Neighbours touch where they are joined, and what is fixed to each other never moves.
+                if links.joints_between(&shape.link, Some(&other.link)) < 2
+                    || own.exclude.iter().any(excluded)
+                {
+                    continue;
+                }
+                tasks.push(kept_apart(
+                    &shape.name,
+                    &other.name,
+                    on_links(shape, other),
+                    own.distance_m,
+                ));
+            }
+        }
+        tasks
+    }
+}
+
+fn on_links(shape: &LinkShape, other: &LinkShape) -> ShapePair {
+    ShapePair {
+        link: shape.link.clone(),
+        shape: shape.geometry.clone(),
+        other_link: Some(other.link.clone()),
+        other: other.geometry.clone(),
+        motion: None,
+    }
+}
+
+fn kept_apart(name: &str, other: &str, pair: ShapePair, distance_m: f64) -> TaskConfig {
+    TaskConfig {
+        name: format!("{name}/{other}"),
+        kind: TaskKind::Shapes(Box::new(pair)),
+        frames: Frames::default(),
+        goal: GoalConfig::Set {
+            min: Some(distance_m),
+            max: None,
+            recovery_per_s: None,
+            gain_per_s: None,
+        },
+        damping: Damping::default(),
+    }
+}
+
+/// The links of a robot, and what is between them.
+struct Links<'a> {
+    robot: &'a Robot,
+    kinematics: Kinematics,
+}
+
+impl<'a> Links<'a> {
+    fn of(robot: &'a Robot) -> Self {
+        Self {
+            robot,
+            kinematics: Kinematics::new(robot),
+        }
+    }
+
+    /// How many joints are between a link and another, or the world; none if there is no such link.
+    fn joints_between(&self, link: &str, other: Option<&str>) -> usize {
+        let seen_from = match other {
+            None => Some(Frame::World),
+            Some(other) => self.robot.frame(other),
+        };
+        let (Some(frame), Some(seen_from)) = (self.robot.frame(link), seen_from) else {
+            return 0;
+        };
+        self.kinematics.motion_between(seen_from, frame).joints()
+    }
+}
