@@ -16,9 +16,8 @@
 //!
 //! Distances are from closed forms, or from a monotone root where there is none (capsule and cylinder), and
 //! not from a general solver for convex shapes: those stop at a tolerance in the distance, and the
-//! normal, of which a Jacobian is made, is then known to the square root of it only. The ones to be
-//! had in Rust bring some twenty-five crates with them besides. What proves a distance right is not another
-//! solver but the normal itself: the one shape lies on one side of the plane across it, the other on the
+//! normal, of which a Jacobian is made, is then known to the square root of it only. What proves a
+//! distance right is not another solver but the normal itself: the one shape lies on one side of the plane across it, the other on the
 //! other, and a point of each is on it (`tests/shapes.rs`).
 
 mod boxes;
