@@ -3,9 +3,9 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use conik::{Frame, Kinematics, Vec3};
+use conik::{Frame, Goal, Kinematics, Vec3};
 use conik_sim::experiment::Experiment;
-use conik_sim::scenario::Scenario;
+use conik_sim::scenario::{Scenario, TaskKind};
 
 /// Two arms on a waist; the left one slides out.
 const TORSO: &str = r#"<robot name="torso">
@@ -260,4 +260,37 @@ fn notes_tell_what_was_not_taken() {
         notes.iter().any(|note| note.contains("waist 80")),
         "{notes:?}"
     );
+}
+
+#[test]
+fn tasks_take_lengths_of_joints_that_slide_as_they_are() {
+    let scenario = SCENARIO.to_owned()
+        + r#"
+[[task]]
+name = "rest"
+type = "posture"
+joints = ["reach out", "waist"]
+desired_deg = [0.25, 90]
+gain_per_s = 1
+[[task]]
+name = "out"
+type = "joint_speed"
+joint = "reach out"
+speed_deg_per_s = 0.1
+"#;
+    let cell = Cell::new("tasks", TORSO, &scenario);
+    let scenario = Scenario::load(cell.file()).expect("it is right");
+    let experiment = Experiment::new(&scenario).expect("it can be run");
+    let stack = experiment.controller.stack();
+    let rest = stack.find("rest").expect("listed");
+    let Goal::Equality { desired, .. } = stack[rest].goal() else {
+        panic!("a posture has desired positions");
+    };
+    assert_eq!(*desired, [0.25, 90_f64.to_radians()]);
+    let out = scenario.tasks.last().expect("three tasks");
+    let speed = TaskKind::JointSpeed {
+        joint: 2,
+        speed_rad_per_s: 0.1,
+    };
+    assert_eq!(out.kind, speed);
 }

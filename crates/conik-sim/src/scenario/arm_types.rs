@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use super::config::TaskKind;
 use super::keys;
 use super::posture;
-use super::robot::in_one_unit;
+use super::robot::{in_one_unit, of_joint};
 use super::task_types::{GoalShape, TaskType};
 
 pub(super) const POSTURE: TaskType = TaskType {
@@ -42,9 +42,10 @@ pub(super) const JOINT_SPEED: TaskType = TaskType {
         let (deg, rad) = (&keys::SPEED_DEG_PER_S, &keys::SPEED_RAD_PER_S);
         let speed = in_one_unit(table, deg, in_deg, rad, in_rad, found);
         let (speed, in_rad) = speed.required(table, found)?;
+        let joint = joint?;
         Some(TaskKind::JointSpeed {
-            joint: joint?,
-            speed_rad_per_s: in_rad(speed),
+            joint,
+            speed_rad_per_s: of_joint(robot, joint - 1, in_rad)(speed),
         })
     },
 };

@@ -3,7 +3,7 @@
 use super::config::Part;
 use super::keys;
 use super::mistake::Mistakes;
-use super::robot::in_one_unit;
+use super::robot::{in_one_unit, of_joint};
 use super::robots::RobotFacts;
 use super::table::Table;
 
@@ -67,7 +67,14 @@ pub(super) fn desired(
         );
         return None;
     }
-    Some(positions.into_iter().map(in_rad).collect())
+    // What is wrong with the list itself has been noted where it was read.
+    let chosen = self::joints(table, robot, &mut Mistakes::new(""))?;
+    let positions = positions.into_iter().zip(chosen);
+    Some(
+        positions
+            .map(|(position, joint)| of_joint(robot, joint - 1, in_rad)(position))
+            .collect(),
+    )
 }
 
 /// Which rows of a Jacobian count, if the robot has as many joints.
