@@ -42,7 +42,8 @@ pub struct Kinematics {
     twists: Vec<TwoTwists>,
     /// All of them, a bit each.
     all: u32,
-    /// Where among the poses the tool is, and each link.
+    /// Where among the poses the tool is, and each link; no table where links are numbered as the poses
+    /// are, as those of Denavit-Hartenberg tables.
     tool: usize,
     links: Vec<usize>,
     reach: f64,
@@ -152,7 +153,11 @@ impl Kinematics {
             twists: alloc::vec![TwoTwists::default(); bodies.len().div_ceil(2)],
             all: moved_by.iter().fold(0, |all, bodies| all | bodies),
             tool: links[robot.tool()],
-            links,
+            links: if links.iter().copied().eq(0..=bodies.len()) {
+                Vec::new()
+            } else {
+                links
+            },
             fixed,
             moved_by,
             reach: turning * reach(robot, false),
@@ -313,6 +318,7 @@ impl Kinematics {
         match frame {
             Frame::World => 0,
             Frame::Tool => self.tool,
+            Frame::Link(link) if self.links.is_empty() => link,
             Frame::Link(link) => self.links[link],
         }
     }
