@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use conik::{Interval, Reason};
+use conik::{Interval, JointKind, Reason};
 use conik_cli::report::units::{limit, quantity};
 use conik_sim::experiment::Experiment;
 use conik_sim::record::Record;
@@ -177,12 +177,16 @@ fn speed(record: &Record, experiment: &Experiment) -> String {
         return format!("{nothing}the arm is at rest");
     };
     let joint = &experiment.robot.joints()[index];
+    let unit = match joint.kind {
+        JointKind::Revolute => "rad/s",
+        JointKind::Prismatic => "m/s",
+    };
     let most = joint.limits.speed.map_or(String::new(), |most| {
-        format!(" of {} allowed", limit(most, "rad/s"))
+        format!(" of {} allowed", limit(most, unit))
     });
     format!(
         "{nothing}the fastest joint is {}, at {}{most}",
         joint.name,
-        limit(speed, "rad/s")
+        limit(speed, unit)
     )
 }

@@ -20,14 +20,14 @@ pub fn panel(run: &Run, width: f64) -> Picture {
         run,
         &run.log().numbered("q", "_rad"),
         "joint positions",
-        "position [rad]",
+        &format!("position [{}]", run.joint_unit("")),
         layout,
     );
     let velocities = chart(
         run,
         &run.log().numbered("qd", "_rad_s"),
         "joint velocities",
-        "velocity [rad/s]",
+        &format!("velocity [{}]", run.joint_unit("/s")),
         layout,
     );
     let mut marks = Marks::default();

@@ -4,6 +4,7 @@ use std::fs::File;
 use std::io::{self, BufReader, Read};
 use std::path::{Path, PathBuf};
 
+use conik::{Joint, JointKind};
 use conik_sim::log::{Log, LogError};
 use conik_sim::scenario::{GoalConfig, TaskConfig};
 use conik_sim::summary::{ModeChange, Outcome, Summary};
@@ -24,6 +25,7 @@ pub struct Run {
     tasks: Vec<TaskConfig>,
     modes: Vec<Mode>,
     spans: Vec<Span>,
+    joints_that_slide: Joints,
 }
 
 /// Sets that were active together at some time of the run.
@@ -100,6 +102,7 @@ impl Run {
         }
         Self {
             tasks: summary.settings.scenario.all_tasks(),
+            joints_that_slide: joints_that_slide(&summary),
             log,
             summary,
             modes,
@@ -120,6 +123,15 @@ impl Run {
     /// The tasks, the most important first; those of the joints' position limits among them.
     pub fn tasks(&self) -> &[TaskConfig] {
         &self.tasks
+    }
+
+    /// Unit of the joints' positions, or with `"/s"` of their velocities: `rad/s`, or of which what.
+    pub fn joint_unit(&self, per: &str) -> String {
+        match self.joints_that_slide {
+            Joints::None => format!("rad{per}"),
+            Joints::All => format!("m{per}"),
+            Joints::Some => format!("rad{per}, of sliding joints m{per}"),
+        }
     }
 
     /// The modes that occurred, in order of first appearance.
@@ -204,6 +216,24 @@ impl Run {
             .title
             .as_deref()
             .unwrap_or("Run of Conik")
+    }
+}
+
+/// Which of a robot's joints.
+#[derive(Clone, Copy, Debug)]
+enum Joints {
+    None,
+    Some,
+    All,
+}
+
+fn joints_that_slide(summary: &Summary) -> Joints {
+    let robot = summary.settings.scenario.robot.described();
+    let slides = |joint: &Joint| joint.kind == JointKind::Prismatic;
+    match robot {
+        Ok(robot) if robot.joints().iter().all(slides) => Joints::All,
+        Ok(robot) if robot.joints().iter().any(slides) => Joints::Some,
+        _ => Joints::None,
     }
 }
 

@@ -153,12 +153,12 @@ pub fn section(run: &Run) -> String {
         ("When", true),
         ("Task", false),
     ];
-    let joints = joints(&monitors.joints);
+    let joints = joints(run, &monitors.joints);
     tables::section("What else was watched", &columns, &body, &joints)
 }
 
 /// Which joint's limits bound, and for how long.
-fn joints(joints: &[JointMonitor]) -> String {
+fn joints(run: &Run, joints: &[JointMonitor]) -> String {
     let mut body = String::new();
     let time = |time: f64| {
         if time > 0.0 {
@@ -186,14 +186,16 @@ fn joints(joints: &[JointMonitor]) -> String {
             number(joint.hardest, 3),
         );
     }
+    let fastest = format!("Fastest [{}]", run.joint_unit("/s"));
+    let hardest = format!("Hardest [{}]", run.joint_unit("/s²"));
     let columns = [
         ("Joint", false),
         ("Position", true),
         ("Speed", true),
         ("Acceleration", true),
         ("Exceeded for a set", true),
-        ("Fastest [rad/s]", true),
-        ("Hardest [rad/s²]", true),
+        (&fastest, true),
+        (&hardest, true),
     ];
     let table = tables::table(&columns, &body);
     format!(
