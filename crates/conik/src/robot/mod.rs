@@ -178,7 +178,7 @@ impl Robot {
         self.links.iter().map(|link| link.name.as_str())
     }
 
-    /// The frame of the link of this name; its name is also that of the link that carries the tool frame.
+    /// The frame of the link of this name, if the robot has it.
     pub fn frame(&self, link: &str) -> Option<Frame> {
         let place = self.links.iter().position(|other| other.name == link);
         place.map(Frame::Link)

@@ -78,6 +78,13 @@ impl FieldOfView {
         }
     }
 
+    /// A call of its own, so that those who stand in the world do not pay for it.
+    #[cold]
+    #[inline(never)]
+    fn value_from_elsewhere(&self, kinematics: &Kinematics, value: &mut [f64]) {
+        self.in_world(kinematics).value(kinematics, value);
+    }
+
     #[inline]
     fn away_from_desired(&self, kinematics: &Kinematics) -> Vec3 {
         self.seen.z_axis(kinematics) - self.direction
@@ -99,7 +106,7 @@ impl Task for FieldOfView {
     #[inline]
     fn value(&self, kinematics: &Kinematics, value: &mut [f64]) {
         if self.seen.is_from_elsewhere() {
-            return self.in_world(kinematics).value(kinematics, value);
+            return self.value_from_elsewhere(kinematics, value);
         }
         value[0] = self.away_from_desired(kinematics).norm();
     }

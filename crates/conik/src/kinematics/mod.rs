@@ -1,6 +1,9 @@
 //! What follows from one configuration: where every frame is, and how its points move.
 
+mod bounds;
 mod curvature;
+mod motion;
+mod rows;
 
 use alloc::vec::Vec;
 
@@ -8,8 +11,11 @@ use crate::geometry::{Pose, Vec3};
 use crate::joints::JointVec;
 use crate::linalg::{are_equal, copy};
 use crate::robot::placement::{Placement, turn_about_z};
-use crate::robot::{Body as RobotBody, JointKind, Mimic, Robot};
+use crate::robot::{Body as RobotBody, JointKind, Link, Mimic, Robot};
 use crate::trigonometry::sin_cos;
+use bounds::{reach, turning};
+pub use motion::Motion;
+use rows::TwoTwists;
 
 /// A frame of the robot, or of the room that it stands in.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -33,9 +39,9 @@ pub struct Kinematics {
     bodies: Vec<Body>,
     /// How the positions of bodies follow from q; empty if each has an entry of its own.
     drives: Vec<Mimic>,
-    /// Frames that are on bodies but not theirs.
+    /// Links on bodies, away from the bodies' own frames.
     fixed: Vec<Fixed>,
-    /// Pose of the world, then of each body, then of each fixed frame.
+    /// Pose of the world, then of each body, then of each link that is elsewhere.
     poses: Vec<Pose>,
     /// Of each of these, the bodies that move it, a bit each.
     moved_by: Vec<u32>,
@@ -65,53 +71,13 @@ struct Body {
     kind: JointKind,
 }
 
-/// A frame on a body, away from the body's own.
+/// A link on a body that moves, away from the body's own frame.
 #[derive(Clone, Copy, Debug)]
 struct Fixed {
-    /// 0 for what does not move.
+    /// Where among the poses it is, and the body.
+    place: usize,
     body: usize,
     placement: Pose,
-}
-
-/// How one frame moves as another sees it: through the joints that are between them.
-///
-/// A joint that moves both moves nothing between them.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Motion {
-    /// Bodies that carry the frame and not the one it is seen from, a bit each.
-    forward: u32,
-    /// Bodies that carry only the frame that it is seen from: they move it the other way round.
-    backward: u32,
-}
-
-impl Motion {
-    /// Whether no joint is between the two frames.
-    pub fn is_none(self) -> bool {
-        self.forward | self.backward == 0
-    }
-
-    /// How many joints are between the two frames; those that follow others count too.
-    pub fn joints(self) -> usize {
-        (self.forward | self.backward).count_ones() as usize
-    }
-
-    /// 1 for a body that moves the frame, −1 for one that moves the other frame, else 0.
-    #[inline]
-    fn sign(self, body: usize) -> f64 {
-        match (self.forward >> body & 1, self.backward >> body & 1) {
-            (1, _) => 1.0,
-            (_, 1) => -1.0,
-            _ => 0.0,
-        }
-    }
-}
-
-/// Of a pair of neighbouring joints, x, y and z of ω and of v: at unit speed, each moves a point p of a
-/// later link at ω × p + v. Side by side, so that both are worked on at once.
-#[derive(Clone, Copy, Debug, Default)]
-struct TwoTwists {
-    turn: [[f64; 2]; 3],
-    slide: [[f64; 2]; 3],
 }
 
 impl Kinematics {
@@ -127,29 +93,33 @@ impl Kinematics {
         for (i, body) in bodies.iter().enumerate() {
             moved_by.push(moved_by[body.parent] | 1 << i);
         }
+        let mut poses = alloc::vec![Pose::IDENTITY; moved_by.len()];
         let mut fixed = Vec::new();
-        let mut place = |frame| {
-            let (body, placement) = robot
-                .attachment(frame)
-                .unwrap_or((RobotBody::FIXED, Pose::IDENTITY));
-            let body = body.index();
+        let mut place = |link: &Link| {
+            let (place, body, placement) = (poses.len(), link.body.index(), link.placement);
             if placement == Pose::IDENTITY {
                 return body;
             }
-            fixed.push(Fixed { body, placement });
+            if link.body != RobotBody::FIXED {
+                fixed.push(Fixed {
+                    place,
+                    body,
+                    placement,
+                });
+            }
+            // What is on no body that moves is there for good.
+            poses.push(placement);
             moved_by.push(moved_by[body]);
-            moved_by.len() - 1
+            place
         };
-        let links: Vec<usize> = (0..robot.links().len())
-            .map(|link| place(Frame::Link(link)))
-            .collect();
+        let links: Vec<usize> = robot.links().iter().map(&mut place).collect();
         let own = |(i, drive): (usize, &Mimic)| *drive == Mimic::own(i);
         let drives: Vec<Mimic> = robot.bodies().iter().map(|body| body.drive).collect();
         let is_direct = drives.iter().enumerate().all(own);
         let zeros = JointVec::zeros(bodies.len());
         let turning = turning(&drives);
         let mut kinematics = Self {
-            poses: alloc::vec![Pose::IDENTITY; moved_by.len()],
+            poses,
             twists: alloc::vec![TwoTwists::default(); bodies.len().div_ceil(2)],
             all: moved_by.iter().fold(0, |all, bodies| all | bodies),
             tool: links[robot.tool()],
@@ -237,9 +207,8 @@ impl Kinematics {
             };
             self.poses[i + 1] = pose;
         }
-        let (bodies, frames) = self.poses.split_at_mut(1 + self.bodies.len());
-        for (frame, fixed) in frames.iter_mut().zip(&self.fixed) {
-            *frame = bodies[fixed.body] * fixed.placement;
+        for fixed in &self.fixed {
+            self.poses[fixed.place] = self.poses[fixed.body] * fixed.placement;
         }
     }
 
@@ -321,164 +290,5 @@ impl Kinematics {
             Frame::Link(link) if self.links.is_empty() => link,
             Frame::Link(link) => self.links[link],
         }
-    }
-
-    /// The Jacobian of a point [m], Eq. (5) of the paper: `rows` is its x, y and z row, each of one entry
-    /// per joint [m/rad, or 1 for a prismatic joint]. The point is where it is in the world now, and
-    /// `motion` says what it moves with.
-    #[inline]
-    pub fn point_rows(&self, motion: Motion, point: Vec3, rows: [&mut [f64]; 3]) {
-        let [x, y, z] = rows;
-        self.fill_row(motion, x, |TwoTwists { turn, slide }, i| {
-            turn[1][i] * point.z - turn[2][i] * point.y + slide[0][i]
-        });
-        self.fill_row(motion, y, |TwoTwists { turn, slide }, i| {
-            turn[2][i] * point.x - turn[0][i] * point.z + slide[1][i]
-        });
-        self.fill_row(motion, z, |TwoTwists { turn, slide }, i| {
-            turn[0][i] * point.y - turn[1][i] * point.x + slide[2][i]
-        });
-    }
-
-    /// One row of the Jacobian of a point [m]: `row · q̇` is its speed [m/s] along `direction`.
-    #[inline]
-    pub fn point_row(&self, motion: Motion, point: Vec3, direction: Vec3, row: &mut [f64]) {
-        // direction · (ω × p + v) = ω · (p × direction) + v · direction
-        let moment = point.cross(direction);
-        self.fill_row(motion, row, |TwoTwists { turn, slide }, i| {
-            let by_turning = turn[0][i] * moment.x + turn[1][i] * moment.y + turn[2][i] * moment.z;
-            let by_sliding =
-                slide[0][i] * direction.x + slide[1][i] * direction.y + slide[2][i] * direction.z;
-            by_turning + by_sliding
-        });
-    }
-
-    /// One row of the Jacobian of an orientation: `row · q̇` is the angular velocity [rad/s] about
-    /// `direction`.
-    #[inline]
-    pub fn turn_row(&self, motion: Motion, direction: Vec3, row: &mut [f64]) {
-        self.fill_row(motion, row, |TwoTwists { turn, .. }, i| {
-            turn[0][i] * direction.x + turn[1][i] * direction.y + turn[2][i] * direction.z
-        });
-    }
-
-    /// One row of the Jacobian of a unit vector `axis` that is fixed to a frame: `row · q̇` is its rate
-    /// [1/s] along `direction`. Eq. (14) of the paper is three such rows.
-    #[inline]
-    pub fn axis_row(&self, motion: Motion, axis: Vec3, direction: Vec3, row: &mut [f64]) {
-        // direction · (ω × axis) = ω · (axis × direction)
-        self.turn_row(motion, axis.cross(direction), row);
-    }
-
-    /// The joint that moves a body, and how far per unit of it.
-    fn drive(&self, body: usize) -> (usize, f64) {
-        let drive = self.drives.get(body);
-        drive.map_or((body, 1.0), |drive| (drive.joint, drive.multiplier))
-    }
-
-    /// Fills `row` two joints at a time.
-    #[inline(always)]
-    #[allow(
-        clippy::inline_always,
-        reason = "the entries are a few operations each, and so is a call"
-    )]
-    fn fill_row(&self, motion: Motion, row: &mut [f64], entry: impl Fn(&TwoTwists, usize) -> f64) {
-        if !self.drives.is_empty() {
-            return self.sum_row(motion, row, entry);
-        }
-        let (pairs, last) = row.as_chunks_mut::<2>();
-        if let (Ok(pairs), Some(twists)) = (
-            <&mut [_; 3]>::try_from(&mut *pairs),
-            self.twists.first_chunk(),
-        ) {
-            // Six joints are the common case, and a loop of known length the fast one.
-            fill_pairs::<3>(pairs, twists, &entry);
-        } else {
-            for (values, twists) in pairs.iter_mut().zip(&self.twists) {
-                *values = [entry(twists, 0), entry(twists, 1)];
-            }
-        }
-        if let ([value], Some(twists)) = (last, self.twists.last()) {
-            *value = entry(twists, 0);
-        }
-        if motion.forward != self.all {
-            keep_between(motion, row);
-        }
-    }
-
-    /// Fills `row` where some bodies follow others: each adds to the entry of the joint that moves it.
-    #[cold]
-    fn sum_row(&self, motion: Motion, row: &mut [f64], entry: impl Fn(&TwoTwists, usize) -> f64) {
-        row.fill(0.0);
-        for (i, drive) in self.drives.iter().enumerate() {
-            let rate = motion.sign(i) * drive.multiplier;
-            if rate != 0.0 {
-                row[drive.joint] += rate * entry(&self.twists[i / 2], i % 2);
-            }
-        }
-    }
-}
-
-/// The most that a link can be away from the joints that move it [m], or from the world's origin if
-/// the first joints' own places count.
-fn reach(robot: &Robot, from_world: bool) -> f64 {
-    let mut lengths: Vec<f64> = alloc::vec![0.0];
-    for body in robot.bodies() {
-        let own = if from_world || body.parent != 0 {
-            body.length()
-        } else {
-            body.length_from_joint()
-        };
-        lengths.push(lengths[body.parent] + own);
-    }
-    let links = robot
-        .links()
-        .iter()
-        .filter(|link| from_world || link.body.index() != 0);
-    links
-        .map(|link| lengths[link.body.index()] + link.placement.origin.norm())
-        .fold(0.0, f64::max)
-}
-
-/// The most that one joint can turn, itself and what follows it [rad/rad].
-fn turning(drives: &[Mimic]) -> f64 {
-    let of = |joint: usize| -> f64 {
-        let driven = drives.iter().filter(|drive| drive.joint == joint);
-        driven.map(|drive| drive.multiplier.abs()).sum()
-    };
-    (0..drives.len()).map(of).fold(0.0, f64::max)
-}
-
-/// Of a row that counts every joint as one that moves the frame, what those between the two make.
-#[inline(never)]
-fn keep_between(motion: Motion, row: &mut [f64]) {
-    for (i, value) in row.iter_mut().enumerate() {
-        *value *= motion.sign(i);
-    }
-}
-
-#[inline]
-fn fill_pairs<const N: usize>(
-    pairs: &mut [[f64; 2]; N],
-    twists: &[TwoTwists; N],
-    entry: impl Fn(&TwoTwists, usize) -> f64,
-) {
-    for (values, twists) in pairs.iter_mut().zip(twists) {
-        *values = [entry(twists, 0), entry(twists, 1)];
-    }
-}
-
-impl TwoTwists {
-    #[inline]
-    fn set(&mut self, which: usize, turn: Vec3, slide: Vec3) {
-        for axis in 0..3 {
-            self.turn[axis][which] = turn.to_array()[axis];
-            self.slide[axis][which] = slide.to_array()[axis];
-        }
-    }
-
-    fn get(&self, which: usize) -> (Vec3, Vec3) {
-        let of = |parts: &[[f64; 2]; 3]| Vec3::from(parts.map(|pair| pair[which]));
-        (of(&self.turn), of(&self.slide))
     }
 }
