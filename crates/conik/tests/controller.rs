@@ -4,8 +4,8 @@ mod paper;
 
 use conik::{
     Axis, Controller, ControllerError, Coordinate, Distance, FieldOfView, Frame, JointPosition,
-    JointVec, ModeOrder, ModeRule, Monitor, Position, Robot, Settings, Stack, StackErrorReason,
-    StepError, Vec3,
+    JointVec, ModeOrder, ModeRule, Monitor, Pose, Position, Robot, Settings, Stack,
+    StackErrorReason, StepError, Vec3,
 };
 use paper::Example;
 
@@ -107,12 +107,36 @@ fn a_task_without_a_finite_value_is_an_error_not_an_inactive_set() {
         .setpoints()
         .task_mut::<Distance>(wall)
         .expect("a distance")
-        .set_point([f64::NAN, 0.0, 0.0]);
+        .set_point([1e200, 0.0, 0.0]);
     let result = controller.step(&[0.1; 6]);
     assert_eq!(
         result.map(|_| ()),
         Err(StepError::TaskNotFinite { task: wall })
     );
+}
+
+#[test]
+fn parameters_that_no_longer_fit_the_robot_are_refused_until_they_do() {
+    let mut controller = controller(|stack| {
+        stack
+            .set("wall", Distance::of_tool_to([1.0, 1.0, 1.0]), 0.1..)
+            .expect("sound");
+    });
+    let wall = controller.stack().find("wall").expect("there");
+    let good = controller.step(&[0.1; 6]).expect("finite").q_ref;
+    let elsewhere = Distance::between(Frame::Link(7), [1.0, 1.0, 1.0]);
+    for bad in [Distance::of_tool_to([f64::NAN, 0.0, 0.0]), elsewhere] {
+        let mut setpoints = controller.setpoints();
+        *setpoints.task_mut(wall).expect("a distance") = bad;
+        for _ in 0..2 {
+            let error = controller.step(&good).map(|_| ());
+            assert!(matches!(error, Err(StepError::TaskUnfit { task, .. }) if task == wall));
+        }
+        assert_eq!(controller.last_step().q_ref, good);
+    }
+    let mut setpoints = controller.setpoints();
+    *setpoints.task_mut(wall).expect("a distance") = Distance::of_tool_to([1.0, 1.0, 1.0]);
+    assert!(controller.step(&good).is_ok());
 }
 
 #[test]
@@ -358,6 +382,16 @@ fn controllers_refuse_rates_and_stacks_that_do_not_fit() {
         error,
         Err(ControllerError::OtherRobot { stack: 2, robot: 6 })
     ));
+    let camera = robot
+        .clone()
+        .with_frame("camera", Frame::Tool, Pose::IDENTITY);
+    let camera = camera.expect("a new name");
+    let mut stack = Stack::new(&camera);
+    let frame = camera.frame("camera").expect("just added");
+    let wall = stack.set("wall", Distance::between(frame, [1.0; 3]), 0.1..);
+    let wall = wall.expect("sound");
+    let error = Controller::new(&robot, stack, Settings::at_rate(125.0));
+    assert!(matches!(error, Err(ControllerError::TaskUnfit { task, .. }) if task == wall));
 }
 
 /// From this start the paper's rule freezes an obstacle that is

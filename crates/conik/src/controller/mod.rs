@@ -88,6 +88,14 @@ pub enum ControllerError {
         /// Joints of the robot.
         robot: usize,
     },
+    /// A task of the stack does not fit the robot.
+    #[error("task {} (from 0) does not fit the robot: {reason}", .task.index())]
+    TaskUnfit {
+        /// The task.
+        task: TaskId,
+        /// Why not.
+        reason: &'static str,
+    },
 }
 
 /// Why a tick gave no reference. The last one stands.
@@ -107,6 +115,14 @@ pub enum StepError {
         /// Index of the joint.
         joint: usize,
     },
+    /// A task was given parameters with which it does not fit the robot.
+    #[error("task {} (from 0) does not fit the robot any more: {reason}", .task.index())]
+    TaskUnfit {
+        /// The task.
+        task: TaskId,
+        /// Why not.
+        reason: &'static str,
+    },
     /// The value of a task is NaN or infinite. Such a set could not be kept.
     #[error("the value of task {} (from 0) is not a finite number", .task.index())]
     TaskNotFinite {
@@ -123,7 +139,11 @@ pub enum StepError {
 
 impl Controller {
     /// A controller for `robot` that keeps `stack`.
-    pub fn new(robot: &Robot, stack: Stack, settings: Settings) -> Result<Self, ControllerError> {
+    pub fn new(
+        robot: &Robot,
+        mut stack: Stack,
+        settings: Settings,
+    ) -> Result<Self, ControllerError> {
         if !(settings.rate_hz > 0.0 && settings.rate_hz.is_finite()) {
             return Err(ControllerError::BadRate(settings.rate_hz));
         }
@@ -133,6 +153,8 @@ impl Controller {
                 robot: robot.dof(),
             });
         }
+        let fits = stack.fit(robot);
+        fits.map_err(|(task, reason)| ControllerError::TaskUnfit { task, reason })?;
         let period = 1.0 / settings.rate_hz;
         let limits = Limits::new(robot, period);
         Ok(Self {
@@ -164,6 +186,8 @@ impl Controller {
     /// `q = controller.step(&q)?.q_ref`.
     pub fn step(&mut self, q: &[f64]) -> Result<&Step, StepError> {
         self.check(q)?;
+        let fits = self.stack.check_changed();
+        fits.map_err(|(task, reason)| StepError::TaskUnfit { task, reason })?;
         if self.settings.border == Border::Land && self.there.is_at(q) {
             core::mem::swap(&mut self.here, &mut self.there);
         }

@@ -117,6 +117,8 @@ pub struct Stack {
     revision: u64,
     /// How often what is asked of sets may have been changed.
     set_revision: u64,
+    /// Tasks whose own parameters may have been changed since they were last looked at.
+    changed: ActiveSet,
 }
 
 impl Stack {
@@ -156,6 +158,7 @@ impl Stack {
             high_priority: 0,
             revision: 0,
             set_revision: 0,
+            changed: ActiveSet::EMPTY,
         }
     }
 
@@ -340,6 +343,26 @@ impl Stack {
     /// Number of joints of the robot that the stack is for.
     pub fn dof(&self) -> usize {
         self.robot.dof()
+    }
+
+    /// Takes the stack for another robot: a task that does not fit it, with the reason.
+    pub(crate) fn fit(&mut self, robot: &Robot) -> Result<(), (TaskId, &'static str)> {
+        self.robot = robot.clone();
+        self.changed = self.iter().map(|(id, _)| id).collect();
+        self.check_changed()
+    }
+
+    /// The first task that was given parameters with which it does not fit the robot, and why.
+    #[inline]
+    pub(crate) fn check_changed(&mut self) -> Result<(), (TaskId, &'static str)> {
+        if !self.changed.is_empty() {
+            for id in self.changed.iter() {
+                let fits = self[id].task().check(&self.robot);
+                fits.map_err(|reason| (id, reason))?;
+            }
+            self.changed = ActiveSet::EMPTY;
+        }
+        Ok(())
     }
 
     /// Whether a task stands above the first equality task.

@@ -106,8 +106,10 @@ impl Setpoints<'_> {
         }
     }
 
-    /// A task as its own type, to change its parameters; `None` if it is of another type.
+    /// A task as its own type, to change its parameters; `None` if it is of another type. The next step
+    /// refuses parameters with which it no longer fits the robot.
     pub fn task_mut<T: Task>(&mut self, task: TaskId) -> Option<&mut T> {
+        self.stack.changed.insert(task);
         self.stack.revision = self.stack.revision.wrapping_add(1);
         let task: &mut dyn Any = &mut *self.stack.levels[task.index()].task;
         task.downcast_mut()
