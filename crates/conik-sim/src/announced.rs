@@ -3,7 +3,7 @@
 //! Where a point moves, a set may be left because no velocity within the limits keeps it. Border `land`
 //! then says in that very tick that the next sample will be outside, and by how much at most.
 
-use conik::{Stack, Step, TaskId};
+use conik::{Occurrence, Stack, Step};
 
 /// What is less is the rounding of a point that moves [task's unit].
 const ROUNDING: f64 = 1e-12;
@@ -14,20 +14,7 @@ pub struct Announcements {
     entered: Vec<bool>,
     /// By how much the last tick said that this one would be outside.
     announced: f64,
-    unannounced: Unannounced,
-}
-
-/// Samples outside a set that had been entered, of which the tick before said nothing.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Unannounced {
-    /// How many.
-    pub ticks: u64,
-    /// How far outside the worst of them was [task's unit].
-    pub worst: f64,
-    /// When that was [s].
-    pub at_s: Option<f64>,
-    /// Which set it was.
-    pub task: Option<TaskId>,
+    unannounced: Occurrence,
 }
 
 impl Announcements {
@@ -36,7 +23,7 @@ impl Announcements {
         Self {
             entered: vec![false; stack.len()],
             announced: 0.0,
-            unannounced: Unannounced::default(),
+            unannounced: Occurrence::default(),
         }
     }
 
@@ -47,7 +34,7 @@ impl Announcements {
             let violation = set.violation(step.value(id)[0]);
             let entered = &mut self.entered[id.index()];
             if *entered && violation > self.announced + ROUNDING {
-                self.unannounced.add(violation, t_s, id);
+                self.unannounced.add(violation, t_s, Some(id));
             }
             *entered |= violation <= 0.0;
         }
@@ -55,19 +42,8 @@ impl Announcements {
     }
 
     /// What was seen so far.
-    pub fn unannounced(&self) -> Unannounced {
+    pub fn unannounced(&self) -> Occurrence {
         self.unannounced
-    }
-}
-
-impl Unannounced {
-    fn add(&mut self, violation: f64, t_s: f64, task: TaskId) {
-        self.ticks += 1;
-        if violation > self.worst {
-            self.worst = violation;
-            self.at_s = Some(t_s);
-            self.task = Some(task);
-        }
     }
 }
 
@@ -78,7 +54,7 @@ mod tests {
     use super::*;
 
     /// An obstacle of 0.1 m beside a tool at rest that moves towards it at `speed` [m/s], or jumps.
-    fn watch(speed: f64, jump: bool) -> (Unannounced, usize) {
+    fn watch(speed: f64, jump: bool) -> (Occurrence, usize) {
         let robot = Robot::builtin("ur5-paper").expect("built in");
         let mut q = JointVec::from([-0.84, -2.76, -1.88, -1.57, -1.48, 0.0]);
         let mut kinematics = conik::Kinematics::new(&robot);
@@ -114,10 +90,10 @@ mod tests {
     #[test]
     fn obstacle_that_is_too_fast_is_announced_and_one_that_jumps_is_not() {
         let (slow, outside) = watch(0.2, false);
-        assert_eq!((slow, outside), (Unannounced::default(), 0));
+        assert_eq!((slow, outside), (Occurrence::default(), 0));
         let (fast, outside) = watch(8.0, false);
         assert!(outside > 0, "nothing can avoid it");
-        assert_eq!(fast, Unannounced::default());
+        assert_eq!(fast, Occurrence::default());
         let (jumped, _) = watch(0.0, true);
         assert_eq!(jumped.ticks, 1);
         assert!((jumped.worst - 0.05).abs() < 1e-6, "{jumped:?}");

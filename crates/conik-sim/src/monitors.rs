@@ -3,7 +3,6 @@
 use conik::{Observations, Occurrence};
 use serde::{Deserialize, Serialize};
 
-use crate::announced::Unannounced;
 use crate::experiment::Experiment;
 use crate::joint_limits::LIMIT;
 use crate::run::Ended;
@@ -89,25 +88,13 @@ impl Monitors {
         let seen = ended.monitor.observations();
         let lands = experiment.controller.settings().border == conik::Border::Land;
         let sighting = |occurrence: &Occurrence, watched| sighting(experiment, occurrence, watched);
-        let Unannounced {
-            ticks,
-            worst,
-            at_s,
-            task,
-        } = ended.unannounced;
-        let unannounced = Occurrence {
-            ticks,
-            worst,
-            at_s,
-            task,
-        };
         Self {
             rank_lost: sighting(&seen.rank_lost, true),
             frozen_moves: sighting(&seen.frozen_moves, !lands),
             frozen_inside: sighting(&seen.frozen_inside, true),
             stuck: sighting(&seen.stuck, true),
             went_outside: sighting(&seen.went_outside, lands),
-            unannounced: sighting(&unannounced, lands),
+            unannounced: sighting(&ended.unannounced, lands),
             stood_still: sighting(&seen.stood_still, lands),
             mode_changes: sighting(&seen.mode_changes, true),
             joints: joints(ended, seen),

@@ -3,9 +3,9 @@
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
-use conik::{ActiveSet, Frame, JointVec, Monitor, Stack, Step, TaskId};
+use conik::{ActiveSet, Frame, JointVec, Monitor, Occurrence, Stack, Step, TaskId};
 
-use crate::announced::{Announcements, Unannounced};
+use crate::announced::Announcements;
 use crate::arm::{Arm, ArmError, Feedback, Reference};
 use crate::cycle_times::CycleTimes;
 use crate::experiment::Experiment;
@@ -36,7 +36,7 @@ pub struct Ended {
     /// What the monitors saw.
     pub monitor: Monitor,
     /// Samples outside a set of which the tick before said nothing.
-    pub unannounced: Unannounced,
+    pub unannounced: Occurrence,
     /// How the arm's cycles came and were answered; `None` where it has no clock of its own.
     pub cycles: Option<CycleTimes>,
     /// The experiment, in its last state.

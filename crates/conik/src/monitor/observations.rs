@@ -35,11 +35,18 @@ pub struct Occurrence {
     pub at_s: Option<f64>,
     /// Which task, if it is about one.
     pub task: Option<TaskId>,
+    /// When it was last [s].
+    pub latest_s: Option<f64>,
 }
 
 impl Occurrence {
-    fn add(&mut self, amount: f64, t_s: f64, task: Option<TaskId>) {
-        self.ticks += 1;
+    /// Takes in that it happened, how much, and when [s]. What happens to several tasks in one tick
+    /// counts as one tick.
+    pub fn add(&mut self, amount: f64, t_s: f64, task: Option<TaskId>) {
+        if self.latest_s != Some(t_s) {
+            self.ticks += 1;
+            self.latest_s = Some(t_s);
+        }
         if self.at_s.is_none() || amount > self.worst {
             self.worst = amount;
             self.at_s = Some(t_s);
@@ -193,5 +200,24 @@ impl Observations {
             }
             _ => self.still_since_s = None,
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_happens_to_two_tasks_in_one_tick_is_one_tick() {
+        let (upper, lower) = (TaskId::new(0), TaskId::new(1));
+        let mut lost = Occurrence::default();
+        for tick in 0..3 {
+            let t_s = f64::from(tick) / 125.0;
+            lost.add(1.0, t_s, Some(upper));
+            lost.add(2.0, t_s, Some(lower));
+        }
+        assert_eq!(lost.ticks, 3);
+        assert_eq!((lost.worst, lost.at_s), (2.0, Some(0.0)));
+        assert_eq!(lost.task, Some(lower));
     }
 }
