@@ -9,6 +9,7 @@ use crate::element::Element;
 use crate::error::{UrdfError, quoted};
 use crate::joint::{self, DescribedJoint};
 use crate::note::Notes;
+use crate::unknown;
 
 /// Links and joints in the order of the text.
 #[derive(Debug)]
@@ -40,6 +41,14 @@ const LEFT_OUT: &[(&str, &str)] = &[
     (
         "safety_controller",
         "its soft limits are left out: those of `<limit>` hold",
+    ),
+    (
+        "dynamics",
+        "damping and friction are left out: conik commands motions, not forces",
+    ),
+    (
+        "calibration",
+        "where the joint is calibrated is left out: it has no effect on motions",
     ),
     ("transmission", "drives are left out"),
     ("gazebo", "what it says to a simulator is left out"),
@@ -82,6 +91,7 @@ pub(crate) fn read<'d>(
         joints.push(joint);
     }
     note_what_is_left_out(&robot, notes);
+    unknown::note(&robot, notes);
     Ok(Description {
         name: if name.trim().is_empty() {
             "robot"

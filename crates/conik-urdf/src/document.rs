@@ -37,12 +37,15 @@ pub(crate) fn parse(text: &str) -> Result<Document<'_>, UrdfError> {
     let whole = text.trim_start_matches('\u{feff}');
     Document::parse_with_options(whole, options).map_err(|error| {
         let place = error.pos();
+        let dtd = whole.find("<!DOCTYPE");
         let at_end = matches!(
             error,
             Error::UnclosedRootNode | Error::UnexpectedEndOfStream
         );
         let (line, column) = if at_end {
             (whole.trim_end().lines().count(), 1)
+        } else if let (Error::DtdDetected, Some(dtd)) = (&error, dtd) {
+            (whole[..dtd].matches('\n').count() + 1, 1)
         } else {
             (place.row as usize, place.col as usize)
         };
@@ -81,6 +84,10 @@ fn explained(error: &Error) -> (String, String) {
         Error::DtdDetected => plain(
             "the text has a document type declaration",
             "URDF has none: remove `<!DOCTYPE ...>`",
+        ),
+        Error::UnexpectedDeclaration(_) => plain(
+            "there is something before the XML declaration",
+            "`<?xml ...?>` must be the first thing in the text, and there only once",
         ),
         Error::NodesLimitReached => (
             format!("the text has more than {MOST_NODES} elements"),
@@ -144,6 +151,9 @@ pub(crate) fn robot<'d>(document: &'d Document<'d>) -> Result<Element<'d>, UrdfE
 
 /// Whether something is still to be expanded here. Controllers and simulators have such texts of their own.
 fn is_xacro(node: Node) -> bool {
+    // Before prefixes were demanded of it, in the first years of ROS.
+    let is_old = matches!(Element::new(node).written_tag(), "include" | "macro")
+        && node.parent_element() == Some(node.document().root_element());
     let of_namespace = node
         .tag_name()
         .namespace()
@@ -155,6 +165,7 @@ fn is_xacro(node: Node) -> bool {
     let to_expand =
         |value: &str| value.contains("${") || value.contains("$(arg") || value.contains("$(eval");
     of_namespace
+        || is_old
         || is_read
             && node
                 .attributes()

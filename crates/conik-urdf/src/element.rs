@@ -22,9 +22,38 @@ impl<'d> Element<'d> {
         self.node.tag_name().name()
     }
 
-    /// Elements directly in it.
+    /// URDF's elements directly in it.
     pub(crate) fn children(&self) -> impl Iterator<Item = Self> + use<'d> {
+        self.elements().filter(|element| !element.has_prefix())
+    }
+
+    /// Elements directly in it that have a prefix: `<drake:limit>` is no `<limit>`.
+    pub(crate) fn others(&self) -> impl Iterator<Item = Self> + use<'d> {
+        self.elements().filter(Self::has_prefix)
+    }
+
+    fn elements(&self) -> impl Iterator<Item = Self> + use<'d> {
         self.node.children().filter(Node::is_element).map(Self::new)
+    }
+
+    fn has_prefix(&self) -> bool {
+        self.written_tag().contains(':')
+    }
+
+    /// The tag with its prefix.
+    pub(crate) fn written_tag(&self) -> &'d str {
+        let text = &self.node.document().input_text()[self.node.range()];
+        let after = text.strip_prefix('<').unwrap_or_default();
+        let end = after.find(|c: char| c.is_whitespace() || matches!(c, '/' | '>'));
+        &after[..end.unwrap_or(after.len())]
+    }
+
+    /// Names of its attributes that have no prefix.
+    pub(crate) fn attribute_names(&self) -> impl Iterator<Item = &'d str> + use<'d> {
+        let attributes = self.node.attributes();
+        attributes
+            .filter(|attribute| attribute.namespace().is_none())
+            .map(|attribute| attribute.name())
     }
 
     /// The only element directly in it of this tag, if there is one.
@@ -137,12 +166,17 @@ impl<'d> Element<'d> {
         self.parsed(name, text.trim()).map(Some)
     }
 
-    /// Three numbers within reason, if the attribute is there.
-    pub(crate) fn three_numbers(&self, name: &str) -> Result<Option<[f64; 3]>, UrdfError> {
+    /// So many numbers within reason, if the attribute is there. `in_words` is how many, and `example`
+    /// what would be right.
+    pub(crate) fn numbers<const N: usize>(
+        &self,
+        name: &str,
+        (in_words, example): (&str, &str),
+    ) -> Result<Option<[f64; N]>, UrdfError> {
         let Some(text) = self.attribute(name) else {
             return Ok(None);
         };
-        let mut numbers = [0.0; 3];
+        let mut numbers = [0.0; N];
         let mut count = 0;
         for word in text.split_whitespace() {
             let number = self.parsed(name, word)?;
@@ -154,14 +188,19 @@ impl<'d> Element<'d> {
             }
             count += 1;
         }
-        if count == 3 {
+        if count == N {
             return Ok(Some(numbers));
         }
         Err(self.error_at(
             name,
-            format!("expected three numbers, found {count}"),
-            format!("write them with blanks between: `{name}=\"0 0 1\"`"),
+            format!("expected {in_words} numbers, found {count}"),
+            format!("write them with blanks between: `{name}=\"{example}\"`"),
         ))
+    }
+
+    /// Three numbers within reason, if the attribute is there.
+    pub(crate) fn three_numbers(&self, name: &str) -> Result<Option<[f64; 3]>, UrdfError> {
+        self.numbers(name, ("three", "0 0 1"))
     }
 
     fn parsed(&self, name: &str, word: &str) -> Result<f64, UrdfError> {

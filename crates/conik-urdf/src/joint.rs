@@ -7,6 +7,7 @@ use crate::error::{UrdfError, quoted};
 use crate::limits::{self, Limits};
 use crate::note::Notes;
 use crate::pose;
+use crate::unit;
 
 /// A joint as described: `child` hangs on `parent`.
 #[derive(Clone, Debug)]
@@ -82,8 +83,8 @@ pub(crate) fn read<'d>(
         })
     };
     let (parent, child) = (end("parent")?, end("child")?);
-    let origin = pose::origin(&element)?;
-    let Movement::Along(_) = movement else {
+    let origin = pose::origin(&element, name, notes)?;
+    let Movement::Along(kind) = movement else {
         return Ok(DescribedJoint {
             name,
             element,
@@ -96,6 +97,9 @@ pub(crate) fn read<'d>(
             mimic: None,
         });
     };
+    let axis = axis(&element, name, notes)?;
+    let limits = limits::read(&element, name, has_ends, notes)?;
+    unit::note_limits(&element, name, (kind, &limits.joint), notes);
     Ok(DescribedJoint {
         name,
         element,
@@ -103,18 +107,24 @@ pub(crate) fn read<'d>(
         parent,
         child,
         origin,
-        axis: axis(&element)?,
-        limits: limits::read(&element, name, has_ends, notes)?,
+        axis,
+        limits,
         mimic: mimic(&element)?,
     })
 }
 
 /// The joint's axis; x where none is given (URDF specification, "axis").
-fn axis(joint: &Element) -> Result<Vec3, UrdfError> {
+fn axis(joint: &Element, name: &str, notes: &mut Notes) -> Result<Vec3, UrdfError> {
     let Some(axis) = joint.child("axis")? else {
+        notes.add(joint, name, "no `<axis>`, which means its x axis");
         return Ok(Pose::IDENTITY.x_axis);
     };
     let Some(xyz) = axis.three_numbers("xyz")? else {
+        notes.add(
+            &axis,
+            name,
+            "`<axis>` without `xyz`, which means its x axis",
+        );
         return Ok(Pose::IDENTITY.x_axis);
     };
     let greatest = xyz.into_iter().fold(0.0, |most: f64, x| most.max(x.abs()));

@@ -40,6 +40,8 @@ mod note;
 mod pose;
 mod role;
 mod tree;
+mod unit;
+mod unknown;
 
 use conik::Robot;
 
@@ -72,7 +74,7 @@ pub struct Described {
 ///
 /// Joints: `fixed`, `revolute`, `continuous` and `prismatic`, with `mimic`. A `planar` or `floating`
 /// joint is refused between base and tool and held elsewhere. Joints off the way are held at 0, or at
-/// their limit nearest to it. Position and velocity limits become those of the robot's joints.
+/// their limit nearest to it. Position, velocity and acceleration limits become those of the robot's joints.
 ///
 /// # Errors
 ///

@@ -38,6 +38,13 @@ pub(crate) fn read(
     let position = if has_ends {
         positions(&limit, name, notes)?
     } else {
+        if limit.attribute("lower").is_some() || limit.attribute("upper").is_some() {
+            notes.add(
+                &limit,
+                name,
+                "`lower` and `upper` are left out: a \"continuous\" joint has no ends",
+            );
+        }
         None
     };
     let effort = limit.any_number("effort")?.filter(|effort| *effort > 0.0);
@@ -45,7 +52,7 @@ pub(crate) fn read(
         joint: JointLimits {
             position,
             speed: speed(&limit, name, notes)?,
-            acceleration: None,
+            acceleration: acceleration(&limit, name, notes)?,
         },
         effort,
     })
@@ -94,12 +101,18 @@ fn positions(
     // Immense bounds are how some tools write "none".
     let bounded = |bound: f64, none: f64| if bound.abs() > GREATEST { none } else { bound };
     let (min, max) = (bounded(min, f64::NEG_INFINITY), bounded(max, f64::INFINITY));
+    if min.is_infinite() || max.is_infinite() {
+        notes.add(limit, name, "immense `lower` or `upper`, taken for none");
+    }
     Ok((min.is_finite() || max.is_finite()).then_some((min, max)))
 }
 
 fn speed(limit: &Element, name: &str, notes: &mut Notes) -> Result<Option<f64>, UrdfError> {
     match limit.any_number("velocity")? {
-        Some(speed) if speed > GREATEST => Ok(None),
+        Some(speed) if speed > GREATEST => {
+            notes.add(limit, name, "immense `velocity`, taken for no limit");
+            Ok(None)
+        }
         Some(speed) if speed > 0.0 => Ok(Some(speed)),
         Some(_) => {
             notes.add(
@@ -114,4 +127,25 @@ fn speed(limit: &Element, name: &str, notes: &mut Notes) -> Result<Option<f64>, 
             Ok(None)
         }
     }
+}
+
+/// The lesser one of `acceleration` and `deceleration`, which URDF has since version 1.2: a controller that
+/// may brake harder than it speeds up does not know before which it will do.
+fn acceleration(limit: &Element, name: &str, notes: &mut Notes) -> Result<Option<f64>, UrdfError> {
+    if limit.attribute("jerk").is_some() {
+        notes.add(limit, name, "`jerk` is left out: no limit of it is kept");
+    }
+    let mut least: Option<f64> = None;
+    for attribute in ["acceleration", "deceleration"] {
+        match limit.any_number(attribute)? {
+            Some(most) if most > GREATEST => {}
+            Some(most) if most > 0.0 => least = Some(least.map_or(most, |least| least.min(most))),
+            Some(_) => {
+                let what = format!("`{attribute}` is not above 0, so no limit of it");
+                notes.add(limit, name, what);
+            }
+            None => {}
+        }
+    }
+    Ok(least)
 }

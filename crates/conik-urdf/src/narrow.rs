@@ -10,6 +10,11 @@ use crate::tree::Tree;
 /// What is narrowed by less is only rounded otherwise [rad or m].
 const ROUNDED: f64 = 1e-6;
 
+const UNBOUNDED: (f64, f64) = (f64::NEG_INFINITY, f64::INFINITY);
+
+const LEFT_OUT: &str =
+    "its position limits are left out: no position of the joint that it follows keeps them";
+
 /// The limits of each joint, narrowed so that those that follow it keep theirs too.
 pub(crate) fn limits_with_followers(
     description: &Description,
@@ -29,23 +34,20 @@ pub(crate) fn limits_with_followers(
             continue;
         };
         if mimic.multiplier == 0.0 {
+            let (min, max) = follower.limits.joint.position.unwrap_or(UNBOUNDED);
+            if mimic.offset < min || mimic.offset > max {
+                notes.add(&follower.element, follower.name, LEFT_OUT);
+            }
             continue;
         }
         let leader = &mut limits[leaders[mimic.joint]];
         if let Some(own) = follower.limits.joint.position {
             let ends = [own.0, own.1].map(|end| (end - mimic.offset) / mimic.multiplier);
             let (min, max) = (ends[0].min(ends[1]), ends[0].max(ends[1]));
-            let (least, most) = leader
-                .position
-                .unwrap_or((f64::NEG_INFINITY, f64::INFINITY));
+            let (least, most) = leader.position.unwrap_or(UNBOUNDED);
             let both = (least.max(min), most.min(max));
             if both.0 > both.1 {
-                notes.add(
-                    &follower.element,
-                    follower.name,
-                    "its position limits are left out: no position of the joint that it follows \
-                     keeps them",
-                );
+                notes.add(&follower.element, follower.name, LEFT_OUT);
             } else {
                 if both.0 - least > ROUNDED || most - both.1 > ROUNDED {
                     notes.add(
@@ -57,10 +59,16 @@ pub(crate) fn limits_with_followers(
                 leader.position = Some(both);
             }
         }
-        if let Some(own) = follower.limits.joint.speed {
-            let speed = own / mimic.multiplier.abs();
-            leader.speed = Some(leader.speed.map_or(speed, |limit| limit.min(speed)));
-        }
+        let lesser = |leader: Option<f64>, own: Option<f64>| {
+            let own = own.map(|own| own / mimic.multiplier.abs());
+            match (leader, own) {
+                (Some(leader), Some(own)) => Some(leader.min(own)),
+                (leader, own) => leader.or(own),
+            }
+        };
+        let own = follower.limits.joint;
+        leader.speed = lesser(leader.speed, own.speed);
+        leader.acceleration = lesser(leader.acceleration, own.acceleration);
     }
     limits
 }

@@ -4,20 +4,42 @@ use conik::{JointKind, Pose, Vec3};
 
 use crate::element::Element;
 use crate::error::UrdfError;
+use crate::note::Notes;
+use crate::unit;
 
 /// A sine or a cosine of less than this is zero that was rounded.
 const ROUNDED: f64 = 1e-15;
 
-/// The pose of an element's `<origin xyz rpy>`; the identity without one.
-pub(crate) fn origin(of: &Element) -> Result<Pose, UrdfError> {
+/// The pose of the `<origin>` of a joint of this name, which gives its orientation as `rpy` or, since
+/// version 1.2 of URDF, as `quat_xyzw`; the identity without one.
+pub(crate) fn origin(of: &Element, name: &str, notes: &mut Notes) -> Result<Pose, UrdfError> {
     let Some(origin) = of.child("origin")? else {
         return Ok(Pose::IDENTITY);
     };
     let position = origin.three_numbers("xyz")?.unwrap_or_default();
-    let angles = origin.three_numbers("rpy")?.unwrap_or_default();
+    let angles = origin.three_numbers("rpy")?;
+    unit::note_origin(of, name, (position, angles.unwrap_or_default()), notes);
+    let orientation = match origin.numbers("quat_xyzw", ("four", "0 0 0 1"))? {
+        None => turned(angles.unwrap_or_default()),
+        Some(_) if angles.is_some() => {
+            return Err(origin.error_at(
+                "quat_xyzw",
+                "`rpy` gives the orientation already",
+                "state it once: remove one of them",
+            ));
+        }
+        Some([0.0, 0.0, 0.0, 0.0]) => {
+            return Err(origin.error_at(
+                "quat_xyzw",
+                "a quaternion of zeros is no orientation",
+                "write the identity as `quat_xyzw=\"0 0 0 1\"`",
+            ));
+        }
+        Some([x, y, z, w]) => Pose::from_quaternion_wxyz([w, x, y, z]),
+    };
     Ok(Pose {
         origin: position.into(),
-        ..turned(angles)
+        ..orientation
     })
 }
 

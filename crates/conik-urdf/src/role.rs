@@ -106,7 +106,11 @@ pub(crate) fn of_joints(
             return Role::Follows(kind, mimic);
         }
         let (rest, is_at_limit) = rest(&joints[leader]);
-        let what = if is_on_way[place] {
+        let what = if joints[leader].movement == Movement::Fixed {
+            "held: what it follows does not move"
+        } else if joints[leader].movement == Movement::Freely {
+            "held as if what it follows stood at 0: that moves in more than one direction"
+        } else if is_on_way[place] {
             "held: what it follows is not on the way from base to tool"
         } else if leader == place && is_at_limit {
             "held at its limit nearest to 0: it is not on the way from base to tool"

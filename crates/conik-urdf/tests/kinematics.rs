@@ -208,10 +208,11 @@ fn limits_are_those_of_the_description() {
     assert_eq!(joints[3].limits.speed, Some(6.0));
     assert_eq!(described.efforts, [Some(900.0), None, None, Some(4.0)]);
     let notes: Vec<String> = described.notes.iter().map(ToString::to_string).collect();
-    assert_eq!(notes.len(), 5, "{notes:#?}");
+    assert_eq!(notes.len(), 6, "{notes:#?}");
     for (line, said) in [
         (4, "\"inertial\": masses"),
         (5, "\"visual\": shapes"),
+        (17, "\"y\": immense `lower` or `upper`"),
         (17, "\"y\": `velocity` is not above 0"),
         (19, "\"z\": no `<limit>`"),
         (31, "\"transmission\": drives"),

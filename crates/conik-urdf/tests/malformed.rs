@@ -79,9 +79,13 @@ const CASES: &[(&str, &str, usize, &[&str])] = &[
     ("rpy=\"0 0 1.5\"", "rpy=\"0 0 pi\"", 9, &["\"pi\" is not a number"]),
     ("xyz=\"0 0 0.3\"", "xyz=\"0 0 1e999\"", 9, &["not a finite number"]),
     ("xyz=\"0 0 0.3\"", "xyz=\"0 0 1e300\"", 9, &["out of range"]),
+    ("rpy=\"0 0 1.5\"", "quat_xyzw=\"0 0 1\"", 9, &["origin of joint", "`quat_xyzw`", "four numbers, found 3", "0 0 0 1"]),
+    ("rpy=\"0 0 1.5\"", "quat_xyzw=\"0 0 0 0\"", 9, &["no orientation"]),
+    ("rpy=\"0 0 1.5\"", "rpy=\"0 0 1.5\" quat_xyzw=\"0 0 0 1\"", 9, &["`rpy` gives the orientation already"]),
     ("xyz=\"0 0 1\"", "xyz=\"0 0 0\"", 10, &["axis of joint \"shoulder\"", "no direction"]),
     ("lower=\"-1\"", "lower=\"3\"", 11, &["limit of joint \"shoulder\", attribute `lower`", "greater than `upper`"]),
     ("upper=\"2\"", "upper=\"two\"", 11, &["attribute `upper`", "\"two\" is not a number"]),
+    ("velocity=\"3\"", "acceleration=\"fast\"", 11, &["attribute `acceleration`", "\"fast\" is not a number"]),
     ("velocity=\"3\"", "velocity=\"inf\"", 11, &["attribute `velocity`", "not a finite"]),
     ("upper=\"2\"", "upper=\"2\" upper=\"3\"", 11, &["`upper` is given twice"]),
     ("joint=\"shoulder\"", "joint=\"sholder\"", 18, &["mimic of joint \"elbow\"", "not there"]),
@@ -93,8 +97,9 @@ const CASES: &[(&str, &str, usize, &[&str])] = &[
     ("  <link name=\"upper\"/>", "  <xacro:link/>", 4, &["this is xacro", "xacro FILE"]),
     ("xyz=\"0 0 0.3\"", "xyz=\"0 0 ${height}\"", 9, &["this is xacro"]),
     ("link=\"base\"", "link=\"$(arg base)\"", 7, &["this is xacro"]),
+    ("<robot name=\"arm\">", "<robot name=\"arm\"><macro name=\"leg\"/>", 2, &["this is xacro"]),
     ("  <link name=\"upper\"/>", "  <gz:link/>", 4, &["prefix \"gz\" is not declared"]),
-    ("<robot name=\"arm\">", "<!DOCTYPE robot [<!ENTITY a \"b\">]><robot name=\"arm\">", 1, &["document type declaration", "remove"]),
+    ("<robot name=\"arm\">", "<!DOCTYPE robot [<!ENTITY a \"b\">]><robot name=\"arm\">", 2, &["document type declaration", "remove"]),
     ("<robot name=\"arm\">", "<robot name=\"arm\"><!-- a -- b -->", 2, &["comment"]),
     ("name=\"upper\"", "name=\"up&per\"", 4, &["no XML"]),
     ("</robot>", "", 19, &["ends within an element"]),
@@ -130,6 +135,10 @@ fn what_is_no_description_is_refused() {
         ("hello", "no XML"),
         (
             "\n<?xml version=\"1.0\"?><robot name=\"a\"/>",
+            "before the XML declaration",
+        ),
+        (
+            "<!-- a --><?xml version=\"1.0\"?><robot name=\"a\"/>",
             "before the XML declaration",
         ),
         ("<robot name=\"a\"/>", "there is no link"),
@@ -217,6 +226,25 @@ fn immense_texts_come_to_an_end() {
     refusal(&"<robot>".repeat(300_000), &[]);
     let wide = "<robot name=\"r\">".to_owned() + &"<a/>".repeat(600_000) + "</robot>";
     assert!(refusal(&wide, &[]).to_string().contains("more than 500000"));
+    let strange: String = (0..100_000).map(|i| format!("<a{i}/>")).collect();
+    read(
+        &ARM.replace("</robot>", &(strange + "</robot>")),
+        &Options::default(),
+    )
+    .expect("it is right");
+    let leaves: String = (0..60_000)
+        .map(|i| {
+            format!(
+                "<link name=\"a{i}\"/><joint name=\"b{i}\" type=\"fixed\"><parent link=\"base\"/>\
+                 <child link=\"a{i}\"/></joint>"
+            )
+        })
+        .collect();
+    let lower = Options {
+        base: None,
+        tools: vec!["lower".to_owned()],
+    };
+    read(&ARM.replace("</robot>", &(leaves + "</robot>")), &lower).expect("it is right");
     let circle =
         chain(20_000, "<mimic joint=\"j{before}\"/>").replace("joint=\"j0\"", "joint=\"j20000\"");
     assert!(refusal(&circle, &[]).to_string().contains("circle"));

@@ -1,5 +1,6 @@
 //! A robot put together joint by joint: any tree.
 
+use alloc::collections::BTreeSet;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 
@@ -41,6 +42,8 @@ pub struct RobotBuilder {
     followers: Vec<(String, usize)>,
     bodies: Vec<MovedBody>,
     links: Vec<Link>,
+    /// The names of the links: descriptions may have tens of thousands.
+    link_names: BTreeSet<String>,
     tool: Option<usize>,
 }
 
@@ -65,6 +68,7 @@ impl RobotBuilder {
             followers: Vec::new(),
             bodies: Vec::new(),
             links: Vec::new(),
+            link_names: BTreeSet::new(),
             tool: None,
         }
     }
@@ -147,7 +151,7 @@ impl RobotBuilder {
     /// Adds a named frame on a body; `placement` is `body_from_link`. The last one added is the tool,
     /// unless [`tool`](Self::tool) says otherwise.
     pub fn link(&mut self, name: &str, on: Body, placement: Pose) -> Result<(), RobotError> {
-        if self.links.iter().any(|link| link.name == name) {
+        if self.link_names.contains(name) {
             return Err(RobotError::NameTaken {
                 name: name.to_string(),
             });
@@ -157,6 +161,7 @@ impl RobotBuilder {
                 link: name.to_string(),
             });
         }
+        self.link_names.insert(name.to_string());
         self.links.push(Link {
             name: name.to_string(),
             body: on,
