@@ -118,3 +118,28 @@ fn start_at_a_singularity_is_doubted_where_nothing_is_damped() {
         assert_eq!(stretched(damped), [""; 0], "{damped}");
     }
 }
+
+#[test]
+fn a_first_task_that_no_joint_moves_is_not_said_to_depend_on_others() {
+    let first = "type = \"position\"\ntarget_m = [0.25, -0.45, -0.23]";
+    let pan = "type = \"joint\"\njoint = 1\ndesired = 0";
+    let again = format!("{pan}\ngain_per_s = 1\n[[task]]\nname = \"again\"\n{pan}");
+    let doubts_of = |other: &str| doubts(first, other);
+    let doubts = doubts_of(&again);
+    let of_second = "`again` depends on the equality tasks above";
+    assert!(
+        doubts.iter().any(|doubt| doubt.contains(of_second)),
+        "{doubts:?}"
+    );
+    // Two joints move the end of the upper arm, on a sphere.
+    let doubts = doubts_of(&format!("{first}\nframe = \"link_2\""));
+    let of_first = "no joint motion moves `position` in one of its directions";
+    assert!(
+        doubts.iter().any(|doubt| doubt.contains(of_first)),
+        "{doubts:?}"
+    );
+    assert!(
+        !doubts.iter().any(|doubt| doubt.contains("depends")),
+        "{doubts:?}"
+    );
+}

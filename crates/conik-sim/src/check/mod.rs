@@ -144,12 +144,21 @@ fn starts_outside(stack: &Stack, values: &[Vec<f64>], doubts: &mut Vec<String>) 
 }
 
 fn depends(stack: &Stack, dependent: &[TaskId], doubts: &mut Vec<String>) {
+    let mut equalities = stack.iter().filter(|(_, level)| level.interval().is_none());
+    let first = equalities.next().map(|(id, _)| id);
     for &task in dependent {
-        doubts.push(format!(
-            "at the start, `{}` depends on the equality tasks above it: they leave it no joint motion \
-             of its own, and it cannot converge there",
-            stack[task].name()
-        ));
+        let name = stack[task].name();
+        doubts.push(if Some(task) == first {
+            format!(
+                "at the start, no joint motion moves `{name}` in one of its directions: it may not \
+                 converge from there"
+            )
+        } else {
+            format!(
+                "at the start, `{name}` depends on the equality tasks above it: they leave it no joint \
+                 motion of its own, and it cannot converge there"
+            )
+        });
     }
 }
 
