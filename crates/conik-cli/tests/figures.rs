@@ -69,7 +69,7 @@ fn each_panel_shows_what_it_is_for() {
         "obstacle_0",
         ">1<",
         ">2<",
-        "url(#sphere)",
+        "url(#ball-0072B2)",
     ] {
         assert!(path.contains(label), "path: {label}");
     }

@@ -1,6 +1,9 @@
 //! Forward kinematics of the paper's UR5 against values from other sources.
 
-use conik::{DhRow, Frame, JacobianMut, Kinematics, Pose, Position, Robot, Task, Vec3};
+use conik::{
+    Body, DhRow, Frame, JacobianMut, Joint, JointKind, Kinematics, Mimic, Pose, Position, Robot,
+    RobotBuilder, Task, Vec3,
+};
 
 fn ur5() -> Robot {
     Robot::builtin("ur5-paper").expect("built in")
@@ -136,4 +139,56 @@ fn robots_that_cannot_be_are_refused() {
         error.contains("ur6") && error.contains("ur5-paper"),
         "{error}"
     );
+}
+
+/// Where joints are placed is where the kinematics put what they carry: tables of both conventions, sliding
+/// joints, and joints that follow others.
+#[test]
+fn placed_joints_agree_with_the_kinematics() {
+    let mut lift = RobotBuilder::new("lift");
+    let away = Pose {
+        origin: Vec3::new(0.2, -0.1, 0.3),
+        x_axis: Vec3::new(0.0, 1.0, 0.0),
+        y_axis: Vec3::new(0.0, 0.0, 1.0),
+        z_axis: Vec3::new(1.0, 0.0, 0.0),
+    };
+    let slide = lift.joint(Body::FIXED, away, Joint::prismatic("slide"));
+    let turn = lift.joint_between(slide.unwrap(), away, Joint::revolute("turn"), away);
+    let follows = Mimic {
+        joint: 1,
+        multiplier: -2.0,
+        offset: 0.3,
+    };
+    let follower = (JointKind::Prismatic, follows, "follower");
+    let end = lift.follower_between(turn.unwrap(), away, follower, away);
+    lift.link("end", end.unwrap(), Pose::IDENTITY).unwrap();
+    let robots = ["ur5-paper", "panda", "ur5e"].map(|name| Robot::builtin(name).unwrap());
+    for robot in robots.into_iter().chain([lift.build().unwrap()]) {
+        let q: Vec<f64> = (0..robot.dof()).map(|i| 0.4 - 0.3 * i as f64).collect();
+        let mut kinematics = Kinematics::new(&robot);
+        kinematics.update(&q);
+        let joints = robot.placed_joints(&q);
+        for link in robot.link_names() {
+            let frame = robot.frame(link).unwrap();
+            let Some(carrier) = robot.carrier(frame) else {
+                continue;
+            };
+            // As the carrier's body sees it, a frame on it stays where it is at q = 0.
+            let at_rest = robot.placed_joints(&vec![0.0; q.len()])[carrier].body;
+            let placement = at_rest.inverse() * *Kinematics::new(&robot).world_from(frame);
+            let expected = kinematics.world_from(frame);
+            let found = joints[carrier].body * placement;
+            assert_near(found.origin, expected.origin.to_array(), 1e-12);
+            assert_near(found.x_axis, expected.x_axis.to_array(), 1e-12);
+        }
+        for joint in &joints {
+            assert!(
+                joint
+                    .carried_by
+                    .is_none_or(|carrier| joint.frame != joints[carrier].frame)
+            );
+            let (axis, moved) = (joint.frame.z_axis, joint.moved.z_axis);
+            assert_near(moved, axis.to_array(), 1e-12);
+        }
+    }
 }

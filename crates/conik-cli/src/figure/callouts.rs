@@ -1,6 +1,9 @@
 //! The words in the scene in three dimensions: where the path starts and ends, which waypoint and
 //! which obstacle is which.
 
+use conik::Shape;
+
+use super::axis::range;
 use super::camera::View;
 use super::ink::{Lettering, Stroke};
 use super::lettering;
@@ -9,10 +12,15 @@ use super::path::LABEL;
 use super::placement::Placement;
 use super::run::Run;
 use super::scene::Scene;
+use super::solid;
 use super::svg::{Marks, Point};
+use super::wall;
 
 /// More obstacles than this are drawn without their names.
 const MOST_NAMED: usize = 16;
+
+/// Colour of the names of things.
+const NAME: &str = "#3b4754";
 
 /// Marks the ends of the path and names what is in the scene, where there is room.
 pub fn draw(run: &Run, scene: &Scene, view: &View, marks: &mut Marks, placement: &mut Placement) {
@@ -50,48 +58,95 @@ pub fn draw(run: &Run, scene: &Scene, view: &View, marks: &mut Marks, placement:
             placement,
         );
     }
+    name_walls(scene, view, marks, placement);
     name_moving(scene, view, marks, placement);
+    for sight in &scene.around.sights {
+        let name = lettering::shorten(&sight.name, LABEL, 130.0);
+        let style = Lettering::new(LABEL, NAME);
+        label(view.place(sight.to), 7.0, &name, style, marks, placement);
+    }
     // So many names would hide what they name.
-    let named = if scene.spheres.len() <= MOST_NAMED {
-        &scene.spheres[..]
+    if scene.standing().count() <= MOST_NAMED {
+        for obstacle in scene.standing() {
+            name_shape(&obstacle.name, &obstacle.shape, view, marks, placement);
+        }
+        for bound in &scene.around.bounds {
+            let (x, y) = view.place(bound.centre);
+            let rim = (x, y - view.scale * bound.radius);
+            let style = Lettering::new(LABEL, NAME);
+            label(rim, 2.0, &bound.name, style, marks, placement);
+        }
+    }
+}
+
+/// Names a shape on it, if the name is no wider than it is, or else beside it.
+fn name_shape(
+    name: &str,
+    shape: &Shape,
+    view: &View,
+    marks: &mut Marks,
+    placement: &mut Placement,
+) {
+    let name = lettering::shorten(name, LABEL, 130.0);
+    let (x, y) = view.place(solid::middle(shape).to_array());
+    let [right, up] = view.camera.frame().map(Into::into);
+    let rim = solid::rim(shape, right, up);
+    let rim: Vec<Point> = rim.into_iter().map(|point| view.place(point)).collect();
+    let (left, end) = range(rim.iter().map(|place| place.0));
+    let (top, bottom) = range(rim.iter().map(|place| place.1));
+    let style = Lettering::new(LABEL, NAME).anchored("middle");
+    let half = 0.5 * (bottom - top);
+    let is_inside = end - left > 1.2 * lettering::width(&name, LABEL) && half > 0.8 * LABEL;
+    let candidates = if is_inside {
+        [0.5, 0.65, 0.3, 0.0, -0.4].map(|part| ((x, y + part * half + 4.0), style))
     } else {
-        &[]
+        [
+            ((x, bottom + 13.0), style),
+            ((x, top - 6.0), style),
+            ((end + 5.0, y + 4.0), style.anchored("start")),
+            ((left - 5.0, y + 4.0), style.anchored("end")),
+            ((x, bottom + 27.0), style),
+        ]
     };
-    for sphere in named {
-        let name = lettering::shorten(&sphere.name, LABEL, 130.0);
-        let (x, y) = view.place(sphere.centre);
-        let radius = view.scale * sphere.radius;
-        let style = Lettering::new(LABEL, "#3b4754").anchored("middle");
-        let inside = radius > 0.6 * lettering::width(&name, LABEL);
-        let candidates = if inside {
-            [0.5, 0.65, 0.3, 0.0, -0.4].map(|part| ((x, y + part * radius + 4.0), style))
-        } else {
-            [13.0, -6.0, 27.0, -20.0, 41.0].map(|off| {
-                (
-                    if off > 0.0 {
-                        (x, y + radius + off)
-                    } else {
-                        (x, y - radius + off)
-                    },
-                    style,
-                )
-            })
-        };
+    if let Some(best) = placement.choose(&candidates, &name) {
+        let (at, style) = candidates[best];
+        let style = if is_inside { style } else { style.rimmed() };
+        marks.text(at, &name, style);
+    }
+}
+
+/// Names planes near a corner of what is drawn of them.
+fn name_walls(scene: &Scene, view: &View, marks: &mut Marks, placement: &mut Placement) {
+    for it in scene.around.walls.iter().take(MOST_NAMED) {
+        let corners = wall::piece(it, scene);
+        let places: Vec<Point> = corners.iter().map(|it| view.place(it.to_array())).collect();
+        let count = places.len().max(1) as f64;
+        let middle = places
+            .iter()
+            .fold((0.0, 0.0), |sum, at| (sum.0 + at.0, sum.1 + at.1));
+        let middle = (middle.0 / count, middle.1 / count);
+        let name = lettering::shorten(&it.name, LABEL, 130.0);
+        let style = Lettering::new(LABEL, NAME).anchored("middle");
+        let toward =
+            |(x, y): Point, part: f64| (x + part * (middle.0 - x), y + part * (middle.1 - y) + 4.0);
+        let inward = [0.2, 0.35, 0.5].into_iter();
+        let candidates: Vec<(Point, Lettering)> = inward
+            .flat_map(|part| places.iter().map(move |&at| (toward(at, part), style)))
+            .collect();
         if let Some(best) = placement.choose(&candidates, &name) {
-            let style = if inside { style } else { style.rimmed() };
-            marks.text(candidates[best].0, &name, style);
+            marks.text(candidates[best].0, &name, style.rimmed());
         }
     }
 }
 
 /// Names what moves where it was at the start and where it is at the end.
 fn name_moving(scene: &Scene, view: &View, marks: &mut Marks, placement: &mut Placement) {
-    let style = Lettering::new(LABEL, "#3b4754");
-    for sphere in scene.moving.iter().take(MOST_NAMED) {
-        let name = lettering::shorten(&sphere.name, LABEL, 130.0);
-        for (at, when) in [(sphere.from, "start"), (sphere.to, "end")] {
-            let text = format!("{name}, {when}");
-            label(view.place(at), 3.0, &text, style, marks, placement);
+    let moving = scene.around.obstacles.iter();
+    for obstacle in moving.filter(|it| it.moved.is_some()).take(MOST_NAMED) {
+        let places = [(obstacle.shape, "end"), (obstacle.at_start(), "start")];
+        for (shape, when) in places {
+            let name = format!("{}, {when}", obstacle.name);
+            name_shape(&name, &shape, view, marks, placement);
         }
     }
 }

@@ -1,5 +1,7 @@
 //! The view of the scene in three dimensions: an orthographic projection, as an engineer draws.
 
+use conik::Vec3;
+
 use super::svg::Point;
 
 /// A point or direction in the base frame [m].
@@ -41,6 +43,11 @@ impl Camera {
         [self.right, self.up]
     }
 
+    /// The direction to the viewer.
+    pub fn toward(&self) -> Vec3 {
+        self.toward.into()
+    }
+
     /// How far right and how far up the point appears [m].
     pub fn project(&self, point: Vector) -> Point {
         (dot(self.right, point), dot(self.up, point))
@@ -49,17 +56,6 @@ impl Camera {
     /// How near to the viewer the point is [m], from an arbitrary zero.
     pub fn nearness(&self, point: Vector) -> f64 {
         dot(self.toward, point)
-    }
-
-    /// Whether a sphere stands between the viewer and the point. A tool that slides along the
-    /// sphere dips into it by rounding or by a sample's length; that is still in front.
-    pub fn is_behind(&self, point: Vector, centre: Vector, radius: f64) -> bool {
-        let radius = 0.985 * radius;
-        let from_centre = difference(centre, point);
-        let (right, up) = self.project(from_centre);
-        let off_axis = right * right + up * up;
-        off_axis < radius * radius
-            && self.nearness(from_centre) < (radius * radius - off_axis).sqrt()
     }
 }
 
@@ -113,21 +109,6 @@ mod tests {
         let (right, up) = camera.project([2.0, 3.0, 4.0]);
         assert!((right - 2.0).abs() < 1e-12 && (up - 3.0).abs() < 1e-12);
         assert!((camera.nearness([2.0, 3.0, 4.0]) - 4.0).abs() < 1e-12);
-    }
-
-    #[test]
-    fn a_sphere_hides_what_is_behind_or_inside_it_only() {
-        let camera = Camera::at(0.0, 0.0);
-        let centre = [1.0, 0.0, 0.0];
-        for (point, hidden) in [
-            ([0.0, 0.0, 0.0], true),
-            ([1.0, 0.1, 0.0], true),
-            ([2.0, 0.0, 0.0], false),
-            ([0.0, 0.6, 0.0], false),
-            ([1.499, 0.0, 0.0], false),
-        ] {
-            assert_eq!(camera.is_behind(point, centre, 0.5), hidden, "{point:?}");
-        }
     }
 
     #[test]

@@ -1,6 +1,8 @@
 //! The floor of the scene in three dimensions: its grid in metres, the shadows on it, the ruler of
 //! heights, and the axes of the base frame.
 
+use conik::Pose;
+
 use super::axis::decimals_of;
 use super::camera::{Camera, Vector, View};
 use super::ink::{Lettering, Stroke};
@@ -9,6 +11,7 @@ use super::palette;
 use super::path::LABEL;
 use super::placement::{Area, Placement};
 use super::scene::Scene;
+use super::solid;
 use super::svg::{Marks, Point};
 
 const TICK: f64 = 10.0;
@@ -159,15 +162,14 @@ impl Rulers<'_> {
 /// Where things stand over the floor: what tells near and high from far and low.
 fn shadows(scene: &Scene, view: &View, marks: &mut Marks) {
     let on_floor = |point: Vector| view.place([point[0], point[1], scene.low[2]]);
-    for sphere in scene.obstacles() {
-        let rim: Vec<Point> = (0..60)
-            .map(|nth| {
-                let (sin, cos) = (f64::from(nth) * 6_f64.to_radians()).sin_cos();
-                let [x, y, z] = sphere.centre;
-                on_floor([x + sphere.radius * cos, y + sphere.radius * sin, z])
-            })
-            .collect();
-        marks.polygon(&rim, SHADOW, 0.22);
+    for obstacle in scene.standing() {
+        let rim = solid::rim(
+            &obstacle.shape,
+            Pose::IDENTITY.x_axis,
+            Pose::IDENTITY.y_axis,
+        );
+        let rim: Vec<Point> = rim.into_iter().map(on_floor).collect();
+        marks.polygon(&solid::hull(rim), SHADOW, 0.22);
     }
     for piece in &scene.path {
         let places: Vec<Point> = piece.points.iter().map(|&point| on_floor(point)).collect();
@@ -221,8 +223,8 @@ pub fn triad(scene: &Scene, view: &View, marks: &mut Marks, placement: &mut Plac
         ((x + 8.0, y + 14.0), style),
         ((x - 8.0, y + 14.0), style.anchored("end")),
     ];
-    if let Some(best) = placement.choose(&candidates, "base") {
+    if let Some(best) = placement.choose(&candidates, scene.origin) {
         let (at, style) = candidates[best];
-        marks.text(at, "base", style.rimmed());
+        marks.text(at, scene.origin, style.rimmed());
     }
 }

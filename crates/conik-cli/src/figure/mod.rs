@@ -15,6 +15,7 @@ pub mod camera;
 pub mod chart;
 pub mod curve;
 pub mod cycles;
+pub mod depth;
 pub mod errors;
 pub mod figure4;
 mod floor;
@@ -24,6 +25,7 @@ pub mod joints;
 pub mod lettering;
 pub mod markup;
 pub mod mode;
+pub mod obstacles;
 pub mod palette;
 pub mod path;
 pub mod placement;
@@ -31,7 +33,12 @@ pub mod quantity;
 pub mod run;
 pub mod scene;
 pub mod sets;
+pub mod shading;
+pub mod solid;
+pub mod stage;
 pub mod svg;
+pub mod viewpoint;
+pub mod wall;
 
 pub use run::{Run, RunError};
 

@@ -1,25 +1,28 @@
-//! What stands in the space around the arm: path, obstacles, waypoints, and the floor below them.
+//! What is drawn of the space around the arm: path, obstacles, waypoints, and the floor below them.
 
+use conik::{Shape, Vec3};
 use conik_sim::scenario::{GoalConfig, TaskConfig, TaskKind};
 
 use super::axis::nice_step;
-use super::camera::{Camera, Vector, difference, dot};
+use super::camera::{Vector, difference, dot};
 use super::curve::decimate_in_space;
+use super::obstacles::{Obstacle, Surroundings};
 use super::run::Run;
+use super::solid::rim;
 
 /// Everything drawn in three dimensions.
 #[derive(Clone, Debug)]
 pub struct Scene {
     /// The tool's path, in pieces of one mode each; a piece begins where the last one ended.
     pub path: Vec<Piece>,
-    /// Regions that the tool may not enter, or may not leave.
-    pub spheres: Vec<Sphere>,
-    /// The like, where the point moves. What they hide depends on the time, so they hide nothing.
-    pub moving: Vec<MovingSphere>,
+    /// What stands around.
+    pub around: Surroundings,
     /// Where the tool should go, in order.
     pub targets: Vec<Target>,
-    /// Whether the base is near enough to be shown.
+    /// Whether the origin is near enough to be shown.
     pub shows_base: bool,
+    /// What is at the origin.
+    pub origin: &'static str,
     /// The corner of the box around it all with the least coordinates; its z is the floor.
     pub low: Vector,
     /// The opposite corner.
@@ -37,32 +40,6 @@ pub struct Piece {
     pub points: Vec<Vector>,
 }
 
-/// The region of a distance task.
-#[derive(Clone, Debug)]
-pub struct Sphere {
-    /// The task's name.
-    pub name: String,
-    /// Its point.
-    pub centre: Vector,
-    /// Its limit.
-    pub radius: f64,
-    /// Whether the inside is forbidden (a minimum), rather than the outside (a maximum).
-    pub is_obstacle: bool,
-}
-
-/// The region of a distance task whose point moves.
-#[derive(Clone, Debug)]
-pub struct MovingSphere {
-    /// The task's name.
-    pub name: String,
-    /// Its point at the start of the run.
-    pub from: Vector,
-    /// Its point at the end of the run; between the two it moved along a straight line.
-    pub to: Vector,
-    /// Its limit.
-    pub radius: f64,
-}
-
 /// A point that the tool should reach.
 #[derive(Clone, Debug)]
 pub struct Target {
@@ -75,70 +52,24 @@ pub struct Target {
 impl Scene {
     /// The scene of a run.
     pub fn of(run: &Run) -> Self {
+        Self::with(run, &[])
+    }
+
+    /// The same, large enough for further points.
+    pub fn with(run: &Run, further: &[Vector]) -> Self {
+        let places = &run.summary().settings.scenario.robot.places;
+        let is_moved = places.base_position_m.is_some() || places.base_rpy_deg.is_some();
         let mut scene = Self {
             path: path_of(run),
-            spheres: Vec::new(),
-            moving: Vec::new(),
-            targets: Vec::new(),
+            around: Surroundings::of(run),
+            targets: targets_of(run),
             shows_base: true,
+            origin: if is_moved { "world" } else { "base" },
             low: [0.0; 3],
             high: [0.0; 3],
             step: 1.0,
         };
-        // What is in the axes of a link moves with it, and is not drawn.
-        let in_world = |task: &&TaskConfig| task.frames.relative_to.is_none();
-        for task in run.tasks().iter().filter(in_world) {
-            match (&task.kind, &task.goal) {
-                (&TaskKind::Distance { point_m, motion }, GoalConfig::Set { min, max, .. }) => {
-                    for (limit, is_obstacle) in [(min, true), (max, false)] {
-                        let Some(radius) = limit.filter(|r| *r > 0.0 && r.is_finite()) else {
-                            continue;
-                        };
-                        let name = task.name.clone();
-                        match motion {
-                            Some(motion) => scene.moving.push(MovingSphere {
-                                name,
-                                from: point_m,
-                                to: motion.point_at(point_m, run.summary().ended_at_s),
-                                radius,
-                            }),
-                            None => scene.spheres.push(Sphere {
-                                name,
-                                centre: point_m,
-                                radius,
-                                is_obstacle,
-                            }),
-                        }
-                    }
-                }
-                (
-                    _,
-                    GoalConfig::Waypoints {
-                        waypoints_m,
-                        acceptance_m,
-                        ..
-                    },
-                ) => {
-                    scene
-                        .targets
-                        .extend(waypoints_m.iter().map(|&point| Target {
-                            point,
-                            acceptance: *acceptance_m,
-                        }));
-                }
-                (TaskKind::Position, GoalConfig::Desired { desired, .. }) => {
-                    if let [x, y, z] = desired[..] {
-                        let point = [x, y, z];
-                        scene.targets.push(Target {
-                            point,
-                            acceptance: 0.0,
-                        });
-                    }
-                }
-                _ => {}
-            }
-        }
-        scene.enclose();
+        scene.enclose(further);
         scene
     }
 
@@ -149,63 +80,23 @@ impl Scene {
         Some((*first, *last))
     }
 
-    /// The view in which most of the path is seen: the longest on paper, spheres hiding none of it.
-    /// Azimuth and elevation [degrees] as of [`Camera::at`].
-    pub fn best_view_deg(&self) -> (f64, f64) {
-        // Away from right angles to the axes, where an axis would be seen as a point.
-        let azimuths = [30.0, 60.0, 120.0, 150.0, -150.0, -120.0, -60.0, -30.0];
-        // From higher up the floor is more of a map and heights are lost: only for more path.
-        let elevations = [28.0, 38.0, 48.0];
-        let mut best = (f64::NEG_INFINITY, (azimuths[0], elevations[0]));
-        let views = elevations.map(|elevation| azimuths.map(|azimuth| (azimuth, elevation)));
-        for view in views.into_iter().flatten() {
-            let camera = Camera::at(view.0, view.1);
-            // Axes of the base across the path or an obstacle make both hard to read.
-            let clear = if self.base_is_aside(&camera) {
-                1.0
-            } else {
-                0.75
-            };
-            let seen = clear * self.seen_length(&camera);
-            // A few hundredths of the path more are no reason to look from elsewhere.
-            if seen > 1.03 * best.0.max(0.0) + 1e-9 {
-                best = (seen, view);
-            }
-        }
-        best.1
+    /// What stands in the way all the time. What a thing that moves hides depends on the time, so that it
+    /// hides nothing.
+    pub fn standing(&self) -> impl Iterator<Item = &Obstacle> {
+        let obstacles = self.around.obstacles.iter();
+        obstacles.filter(|obstacle| obstacle.moved.is_none())
     }
 
-    /// Whether the base is in the background, and no obstacle in front of it.
-    fn base_is_aside(&self, camera: &Camera) -> bool {
-        let middle = [0, 1, 2].map(|k| f64::midpoint(self.low[k], self.high[k]));
-        let clear = self.obstacles().all(|sphere| {
-            let (right, up) = camera.project(sphere.centre);
-            right.hypot(up) > 1.1 * sphere.radius
-        });
-        !self.shows_base
-            || (clear && camera.nearness(middle) > camera.nearness([0.0, 0.0, middle[2]]))
+    /// Every shape that is drawn, those that move where they are at the start and at the end.
+    pub fn shapes(&self) -> impl Iterator<Item = Shape> {
+        let obstacles = self.around.obstacles.iter();
+        let starts = obstacles.clone().filter(|it| it.moved.is_some());
+        obstacles
+            .map(|it| it.shape)
+            .chain(starts.map(Obstacle::at_start))
     }
 
-    fn seen_length(&self, camera: &Camera) -> f64 {
-        let mut length = 0.0;
-        for pair in self.path.iter().flat_map(|piece| piece.points.windows(2)) {
-            let (right, up) = camera.project(difference(pair[0], pair[1]));
-            let hidden = self
-                .obstacles()
-                .any(|sphere| camera.is_behind(pair[1], sphere.centre, sphere.radius));
-            if !hidden {
-                length += right.hypot(up);
-            }
-        }
-        length
-    }
-
-    /// The spheres that may not be entered.
-    pub fn obstacles(&self) -> impl Iterator<Item = &Sphere> {
-        self.spheres.iter().filter(|sphere| sphere.is_obstacle)
-    }
-
-    fn enclose(&mut self) {
+    fn enclose(&mut self, further: &[Vector]) {
         let mut low = [f64::INFINITY; 3];
         let mut high = [f64::NEG_INFINITY; 3];
         let mut include = |point: Vector, around: f64| {
@@ -216,15 +107,19 @@ impl Scene {
                 }
             }
         };
-        for point in self.path.iter().flat_map(|piece| &piece.points) {
+        let path = self.path.iter().flat_map(|piece| &piece.points);
+        for point in path.chain(further) {
             include(*point, 0.0);
         }
-        for sphere in self.spheres.iter().filter(|sphere| sphere.is_obstacle) {
-            include(sphere.centre, sphere.radius);
+        let [x, y, z] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]].map(Vec3::from);
+        for shape in self.shapes() {
+            for point in rim(&shape, x, y).into_iter().chain(rim(&shape, y, z)) {
+                include(point, 0.0);
+            }
         }
-        for sphere in &self.moving {
-            include(sphere.from, sphere.radius);
-            include(sphere.to, sphere.radius);
+        for sight in &self.around.sights {
+            include(sight.from, 0.0);
+            include(sight.to, 0.0);
         }
         for target in &self.targets {
             include(target.point, target.acceptance);
@@ -232,6 +127,7 @@ impl Scene {
         if low[0] > high[0] {
             (low, high) = ([-0.5; 3], [0.5; 3]);
         }
+        self.reach_for_walls(&mut low, &mut high);
         // A path far away from the base is not made tiny to show both.
         let size = difference(low, high);
         let with_base = [0, 1, 2].map(|k| high[k].max(0.0) - low[k].min(0.0));
@@ -243,14 +139,67 @@ impl Scene {
                 low[k] = low[k].min(0.0);
                 high[k] = high[k].max(0.0);
             }
-            low[k] = ((low[k] - room) / step).floor() * step;
-            high[k] = ((high[k] + room) / step).ceil() * step;
+            // A number that was rounded is no reason for another line.
+            low[k] = ((low[k] - room) / step + 1e-6).floor() * step;
+            high[k] = ((high[k] + room) / step - 1e-6).ceil() * step;
             if high[k] - low[k] < step {
                 high[k] = low[k] + step;
             }
         }
         (self.low, self.high, self.step) = (low, high, step);
     }
+
+    /// Makes the box so large that planes near by are in it.
+    fn reach_for_walls(&self, low: &mut Vector, high: &mut Vector) {
+        let centre = [0, 1, 2].map(|k| f64::midpoint(low[k], high[k]));
+        let size = difference(*low, *high);
+        let near = 0.8 * dot(size, size).sqrt();
+        for wall in &self.around.walls {
+            let away = wall.normal.dot(Vec3::from(centre) - wall.point);
+            if away.abs() > near {
+                continue;
+            }
+            let foot = (Vec3::from(centre) - wall.normal * away).to_array();
+            for k in 0..3 {
+                low[k] = low[k].min(foot[k]);
+                high[k] = high[k].max(foot[k]);
+            }
+        }
+    }
+}
+
+fn targets_of(run: &Run) -> Vec<Target> {
+    let mut targets = Vec::new();
+    let in_world = |task: &&TaskConfig| task.frames.relative_to.is_none();
+    for task in run.tasks().iter().filter(in_world) {
+        match (&task.kind, &task.goal) {
+            (
+                _,
+                GoalConfig::Waypoints {
+                    waypoints_m,
+                    acceptance_m,
+                    ..
+                },
+            ) => targets.extend(waypoints_m.iter().map(|&point| Target {
+                point,
+                acceptance: *acceptance_m,
+            })),
+            (TaskKind::Position, GoalConfig::Desired { desired, .. }) => {
+                if let [x, y, z] = desired[..] {
+                    targets.push(Target {
+                        point: [x, y, z],
+                        acceptance: 0.0,
+                    });
+                }
+            }
+            (TaskKind::Pose { target_m, .. }, _) => targets.push(Target {
+                point: *target_m,
+                acceptance: 0.0,
+            }),
+            _ => {}
+        }
+    }
+    targets
 }
 
 fn path_of(run: &Run) -> Vec<Piece> {

@@ -136,6 +136,81 @@ impl Marks {
         ));
     }
 
+    /// A translucent circle with an outline.
+    pub fn disc(&mut self, centre: Point, radius: f64, fill: &str, opacity: f64, outline: Stroke) {
+        self.put(format_args!(
+            "<circle cx=\"{}\" cy=\"{}\" r=\"{}\" fill=\"{fill}\"{} {outline}/>",
+            Decimal(centre.0),
+            Decimal(centre.1),
+            Decimal(radius),
+            Opacity(opacity)
+        ));
+    }
+
+    /// A translucent ellipse with an outline, its half axes turned by an angle [degrees].
+    pub fn ellipse(
+        &mut self,
+        centre: Point,
+        half_axes: Point,
+        turn: f64,
+        fill: &str,
+        opacity: f64,
+        outline: Stroke,
+    ) {
+        self.put(format_args!(
+            "<ellipse rx=\"{}\" ry=\"{}\" transform=\"translate({} {})rotate({})\" fill=\"{fill}\"{} \
+             {outline}/>",
+            Decimal(half_axes.0),
+            Decimal(half_axes.1),
+            Decimal(centre.0),
+            Decimal(centre.1),
+            Decimal(turn),
+            Opacity(opacity)
+        ));
+    }
+
+    /// A translucent polygon with an outline.
+    pub fn face(&mut self, points: &[Point], fill: &str, opacity: f64, outline: Stroke) {
+        let mut path = String::new();
+        for &(x, y) in points {
+            let command = if path.is_empty() { 'M' } else { 'L' };
+            let _ = write!(path, "{command}{} {}", Decimal(x), Decimal(y));
+        }
+        self.put(format_args!(
+            "<path d=\"{path}Z\" fill=\"{fill}\"{} {outline} stroke-linejoin=\"round\"/>",
+            Opacity(opacity)
+        ));
+    }
+
+    /// A path given as SVG writes it, in axes that begin at a place and are turned [degrees].
+    pub fn turned(
+        &mut self,
+        path: &str,
+        at: Point,
+        turn: f64,
+        fill: &str,
+        opacity: f64,
+        outline: Stroke,
+    ) {
+        self.put(format_args!(
+            "<path d=\"{path}\" transform=\"translate({} {})rotate({})\" fill=\"{fill}\"{} {outline}/>",
+            Decimal(at.0),
+            Decimal(at.1),
+            Decimal(turn),
+            Opacity(opacity)
+        ));
+    }
+
+    /// The marks to come, as one sheet of that opacity, up to [`close_sheet`](Self::close_sheet).
+    pub fn open_sheet(&mut self, opacity: f64) {
+        self.put(format_args!("<g opacity=\"{}\">", Decimal(opacity)));
+    }
+
+    /// Ends what [`open_sheet`](Self::open_sheet) began.
+    pub fn close_sheet(&mut self) {
+        self.put(format_args!("</g>"));
+    }
+
     /// A line of text whose baseline is at `at`.
     pub fn text(&mut self, at: Point, text: &str, lettering: Lettering) {
         self.set_text(at, text, lettering, "");
@@ -181,6 +256,16 @@ impl Marks {
             Decimal(at.1),
             picture.marks.0
         ));
+    }
+
+    /// Whether there are none.
+    pub fn is_empty(&self) -> bool {
+        self.0.is_empty()
+    }
+
+    /// Further marks, over these.
+    pub fn append(&mut self, further: &Self) {
+        self.0.push_str(&further.0);
     }
 
     /// Marks written elsewhere, as they are.

@@ -7,6 +7,7 @@ mod builder;
 mod builtin;
 mod dh;
 pub(crate) mod placement;
+mod skeleton;
 
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
@@ -14,6 +15,7 @@ use alloc::vec::Vec;
 pub use builder::{Body, Mimic, RobotBuilder};
 pub use builtin::UrArm;
 pub use dh::{DhConvention, DhRow};
+pub use skeleton::PlacedJoint;
 
 use crate::geometry::Pose;
 use crate::joints::TooManyJoints;

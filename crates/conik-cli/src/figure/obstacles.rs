@@ -1,0 +1,214 @@
+//! What stands in the way of a run: the shapes and planes that its sets keep the robot away from.
+
+use conik::{HalfSpace, Pose, Shape, Sphere, Vec3};
+use conik_sim::scenario::{Axis, GoalConfig, Motion, TaskConfig, TaskKind};
+
+use super::camera::Vector;
+use super::run::Run;
+use super::shading::NEUTRAL;
+
+/// A shape that is kept away from.
+#[derive(Clone, Debug)]
+pub struct Obstacle {
+    /// Its name, or that of its set.
+    pub name: String,
+    /// The shape, in the world; where it is at the end of the run, if it moves.
+    pub shape: Shape,
+    /// From where it was at the start of the run to where it is at the end [m], if it moves.
+    pub moved: Option<Vector>,
+    /// The colour of the mode in which it was in the way, the longest one if there are several.
+    pub tint: &'static str,
+}
+
+/// A plane of which one side is forbidden.
+#[derive(Clone, Debug)]
+pub struct Wall {
+    /// Its name, or that of its set.
+    pub name: String,
+    /// A point of it [m].
+    pub point: Vec3,
+    /// Its normal, towards the side that is allowed.
+    pub normal: Vec3,
+    /// As that of an obstacle.
+    pub tint: &'static str,
+}
+
+/// A point that the tool keeps looking at.
+#[derive(Clone, Debug)]
+pub struct Sight {
+    /// The task's name.
+    pub name: String,
+    /// The point at the start of the run.
+    pub from: Vector,
+    /// The point at the end of the run.
+    pub to: Vector,
+}
+
+/// A sphere that is not left.
+#[derive(Clone, Debug)]
+pub struct Bound {
+    /// The task's name.
+    pub name: String,
+    /// Its middle.
+    pub centre: Vector,
+    /// The greatest distance from it.
+    pub radius: f64,
+}
+
+/// All of these of a run.
+#[derive(Clone, Debug, Default)]
+pub struct Surroundings {
+    /// Shapes that are kept away from.
+    pub obstacles: Vec<Obstacle>,
+    /// Planes that are kept away from.
+    pub walls: Vec<Wall>,
+    /// Spheres that are not left.
+    pub bounds: Vec<Bound>,
+    /// Points that are looked at.
+    pub sights: Vec<Sight>,
+}
+
+impl Surroundings {
+    /// What stands around the robot in that run.
+    pub fn of(run: &Run) -> Self {
+        let mut found = Self::default();
+        // What is in the axes of a link moves with it, and is not drawn.
+        let in_world = |task: &&TaskConfig| task.frames.relative_to.is_none();
+        for task in run.tasks().iter().filter(in_world) {
+            found.add_task(run, task);
+        }
+        let collision = &run.summary().settings.scenario.collision;
+        for obstacle in &collision.obstacles {
+            let of_it = |set: &str| {
+                let shape = set.strip_suffix(obstacle.name.as_str());
+                shape.is_some_and(|shape| shape.ends_with('/'))
+            };
+            let shape = obstacle.geometry.shape();
+            let tint = tint(run, of_it);
+            found.add_shape(run, &obstacle.name, shape, obstacle.motion.as_ref(), tint);
+        }
+        found
+    }
+
+    fn add_task(&mut self, run: &Run, task: &TaskConfig) {
+        let (min, max) = match task.goal {
+            GoalConfig::Set { min, max, .. } => (min, max),
+            _ => (None, None),
+        };
+        let tint = tint(run, |set| set == task.name);
+        match &task.kind {
+            TaskKind::Distance { point_m, motion } => {
+                let is_radius = |radius: &f64| *radius > 0.0 && radius.is_finite();
+                if let Some(radius) = min.filter(is_radius) {
+                    let shape = Sphere::new(*point_m, radius).into();
+                    self.add_shape(run, &task.name, shape, motion.as_ref(), tint);
+                }
+                if let Some(radius) = max.filter(is_radius) {
+                    self.bounds.push(Bound {
+                        name: task.name.clone(),
+                        centre: at_end(run, *point_m, motion.as_ref()),
+                        radius,
+                    });
+                }
+            }
+            TaskKind::LookAt { point_m, motion } => self.sights.push(Sight {
+                name: task.name.clone(),
+                from: *point_m,
+                to: at_end(run, *point_m, motion.as_ref()),
+            }),
+            TaskKind::Plane { normal, offset_m } => {
+                let limits = (min.map(|it| it + offset_m), max.map(|it| it + offset_m));
+                self.add_planes(task, Vec3::from(*normal), limits, tint);
+            }
+            TaskKind::Height => self.add_planes(task, Pose::IDENTITY.z_axis, (min, max), tint),
+            TaskKind::Coordinate { axis } => {
+                let normal = match axis {
+                    Axis::X => Pose::IDENTITY.x_axis,
+                    Axis::Y => Pose::IDENTITY.y_axis,
+                    Axis::Z => Pose::IDENTITY.z_axis,
+                };
+                self.add_planes(task, normal, (min, max), tint);
+            }
+            _ => {}
+        }
+    }
+
+    /// The planes between which a set keeps something.
+    fn add_planes(
+        &mut self,
+        task: &TaskConfig,
+        normal: Vec3,
+        (min, max): (Option<f64>, Option<f64>),
+        tint: &'static str,
+    ) {
+        for (limit, side) in [(min, 1.0), (max, -1.0)] {
+            let Some(limit) = limit else { continue };
+            self.walls.push(Wall {
+                name: task.name.clone(),
+                point: normal * limit,
+                normal: normal * side,
+                tint,
+            });
+        }
+    }
+
+    fn add_shape(
+        &mut self,
+        run: &Run,
+        name: &str,
+        shape: Shape,
+        motion: Option<&Motion>,
+        tint: &'static str,
+    ) {
+        let name = name.to_owned();
+        let moved = motion.map(|motion| motion.point_at([0.0; 3], run.summary().ended_at_s));
+        let shape = shape.placed(&Pose::at(moved.unwrap_or_default().into()));
+        if let Shape::HalfSpace(half_space) = shape {
+            self.walls.push(of_half_space(name, &half_space, tint));
+        } else {
+            self.obstacles.push(Obstacle {
+                name,
+                shape,
+                moved,
+                tint,
+            });
+        }
+    }
+}
+
+impl Obstacle {
+    /// The shape where it was at the start.
+    pub fn at_start(&self) -> Shape {
+        let back = self.moved.unwrap_or_default().map(|moved| -moved);
+        self.shape.placed(&Pose::at(back.into()))
+    }
+}
+
+fn of_half_space(name: String, half_space: &HalfSpace, tint: &'static str) -> Wall {
+    Wall {
+        name,
+        point: half_space.point(),
+        normal: half_space.normal(),
+        tint,
+    }
+}
+
+/// Where a point is at the end of the run.
+fn at_end(run: &Run, point: Vector, motion: Option<&Motion>) -> Vector {
+    motion.map_or(point, |motion| {
+        motion.point_at(point, run.summary().ended_at_s)
+    })
+}
+
+/// The colour of the mode that was longest in force among those in which a set was active that `is_meant`.
+fn tint(run: &Run, is_meant: impl Fn(&str) -> bool) -> &'static str {
+    let mut lasted_s = vec![0.0; run.modes().len()];
+    for span in run.spans() {
+        lasted_s[span.mode] += span.to_s - span.from_s;
+    }
+    let modes = run.modes().iter().zip(lasted_s);
+    let meant = modes.filter(|(mode, _)| mode.active.iter().any(|set| is_meant(set)));
+    // Of several the first.
+    let longest = meant.min_by(|a, b| b.1.total_cmp(&a.1));
+    longest.map_or(NEUTRAL, |(mode, _)| mode.colour)
+}

@@ -1,0 +1,274 @@
+//! The scene painted from back to front: floor and walls, then solids from far to near, each after the parts
+//! of the path that it stands in front of.
+
+use conik::Shape;
+
+use super::callouts;
+use super::camera::{Camera, Vector, View};
+use super::depth::{Placed, back_to_front};
+use super::floor;
+use super::ink::Stroke;
+use super::palette;
+use super::placement::{Area, Placement};
+use super::run::Run;
+use super::scene::Scene;
+use super::shading::{self, Paint};
+use super::solid;
+use super::svg::{Marks, Point};
+use super::wall;
+
+/// A solid of a figure that stands in the scene.
+#[derive(Clone, Copy, Debug)]
+pub struct Part {
+    /// Its shape and its figure.
+    pub placed: Placed,
+    /// How it is painted.
+    pub paint: Paint<'static>,
+    /// Opacity of the sheet that all of its figure is on.
+    pub sheet: f64,
+    /// Whether the path is hidden behind it.
+    pub hides: bool,
+}
+
+/// A picture of the scene.
+#[derive(Debug)]
+pub struct Stage<'a> {
+    /// The run.
+    pub run: &'a Run,
+    /// Its scene.
+    pub scene: &'a Scene,
+    /// What stands in it besides.
+    pub parts: Vec<Part>,
+}
+
+impl Stage<'_> {
+    /// The view that fits a picture of that size [px], and the labels that are placed on it.
+    pub fn view(&self, view_deg: (f64, f64), width: f64, height: f64) -> (View, Placement) {
+        let camera = Camera::at(view_deg.0, view_deg.1);
+        let view = View::fitting(
+            camera,
+            &self.outline(&camera),
+            (58.0, 22.0),
+            (width - 34.0, height - 46.0),
+        );
+        let page = Area {
+            at: (2.0, 2.0),
+            size: (width - 4.0, height - 4.0),
+        };
+        (view, Placement::within(page))
+    }
+
+    /// Paints it all.
+    pub fn paint(&self, view: &View, marks: &mut Marks, placement: &mut Placement) {
+        let solids = self.solids();
+        let tints = solids.iter().map(|part| part.paint.tint);
+        marks.raw(&shading::definitions(tints));
+        floor::draw(self.scene, view, marks, placement);
+        let (back, front): (Vec<_>, Vec<_>) = self
+            .scene
+            .around
+            .walls
+            .iter()
+            .partition(|it| wall::is_in_back(it, view));
+        for it in back {
+            wall::draw(it, self.scene, view, marks);
+        }
+        self.trace(view, marks);
+        self.paint_solids(&solids, view, marks, placement);
+        for it in front {
+            wall::draw(it, self.scene, view, marks);
+        }
+        callouts::draw(self.run, self.scene, view, marks, placement);
+    }
+
+    /// Obstacles, where those that move were, and the parts.
+    fn solids(&self) -> Vec<Part> {
+        let mut solids = Vec::new();
+        for obstacle in &self.scene.around.obstacles {
+            let mut put = |shape: Shape, paint, hides| {
+                solids.push(Part {
+                    placed: Placed {
+                        shape,
+                        figure: None,
+                    },
+                    paint,
+                    sheet: 1.0,
+                    hides,
+                });
+            };
+            let paint = Paint::obstacle(obstacle.tint);
+            if obstacle.moved.is_some() {
+                put(obstacle.at_start(), Paint::past(obstacle.tint), false);
+            }
+            put(obstacle.shape, paint, obstacle.moved.is_none());
+        }
+        solids.extend(&self.parts);
+        solids
+    }
+
+    fn paint_solids(
+        &self,
+        solids: &[Part],
+        view: &View,
+        marks: &mut Marks,
+        placement: &mut Placement,
+    ) {
+        let placed: Vec<Placed> = solids.iter().map(|part| part.placed).collect();
+        let order = back_to_front(&view.camera, &placed);
+        let sorted: Vec<&Part> = order.iter().map(|&nth| &solids[nth]).collect();
+        // How many solids are painted before a point: those before the first that hides it.
+        let layer = |point: Vector| {
+            let hides =
+                |part: &&Part| part.hides && solid::hides(&part.placed.shape, &view.camera, point);
+            sorted.iter().position(hides).unwrap_or(sorted.len())
+        };
+        let strokes = self.strokes(view, &layer);
+        let mut layers: Vec<Marks> = vec![Marks::default(); sorted.len() + 1];
+        for (depth, mode, points) in &strokes {
+            let mode = &self.run.modes()[*mode];
+            let width = if mode.active.is_empty() { 1.9 } else { 3.4 };
+            layers[*depth].polyline(points, Stroke::solid(mode.colour, width));
+            placement.avoid_curve(points);
+        }
+        if self.scene.shows_base {
+            let layer = &mut layers[layer([0.0; 3])];
+            floor::triad(self.scene, view, layer, placement);
+        }
+        for target in &self.scene.targets {
+            let at = view.place(target.point);
+            let radius = (view.scale * target.acceptance).max(3.0);
+            let layer = &mut layers[layer(target.point)];
+            layer.circle(at, radius, "none", Stroke::solid(palette::INK, 1.1));
+            layer.circle(at, 1.4, palette::INK, Stroke::solid(palette::INK, 0.0));
+        }
+        let mut sheet: Option<usize> = None;
+        for (depth, between) in layers.iter().enumerate() {
+            let part = sorted.get(depth);
+            let figure = part
+                .filter(|part| part.sheet < 1.0)
+                .and_then(|part| part.placed.figure);
+            let is_other = sheet != figure || !between.is_empty();
+            if sheet.is_some() && is_other {
+                marks.close_sheet();
+                sheet = None;
+            }
+            marks.append(between);
+            let Some(part) = part else { continue };
+            if figure.is_some() && is_other {
+                marks.open_sheet(part.sheet);
+                sheet = figure;
+            }
+            shading::draw(view, &part.placed.shape, part.paint, marks);
+        }
+        if sheet.is_some() {
+            marks.close_sheet();
+        }
+    }
+
+    /// The ways of what moves, and what is looked at.
+    fn trace(&self, view: &View, marks: &mut Marks) {
+        for obstacle in &self.scene.around.obstacles {
+            let Some(moved) = obstacle.moved else {
+                continue;
+            };
+            let to = solid::middle(&obstacle.shape).to_array();
+            let from = [0, 1, 2].map(|k| to[k] - moved[k]);
+            arrow(view.place(from), view.place(to), marks);
+        }
+        for sight in &self.scene.around.sights {
+            let (from, to) = (view.place(sight.from), view.place(sight.to));
+            arrow(from, to, marks);
+            let (x, y) = to;
+            let ink = Stroke::solid(palette::INK, 1.3);
+            marks.circle(to, 4.5, "#ffffff", ink);
+            marks.line((x - 7.5, y), (x + 7.5, y), ink);
+            marks.line((x, y - 7.5), (x, y + 7.5), ink);
+        }
+        for bound in &self.scene.around.bounds {
+            let stroke = Stroke::dashed(palette::LIMIT, 1.2, "6 4");
+            let radius = view.scale * bound.radius;
+            marks.circle(view.place(bound.centre), radius, "none", stroke);
+        }
+    }
+
+    /// Points that must be on the picture: what is drawn, not the corners of an empty box around it.
+    fn outline(&self, camera: &Camera) -> Vec<Vector> {
+        let scene = self.scene;
+        let (low, high) = (scene.low, scene.high);
+        let floor = [low[0], high[0]].map(|x| [low[1], high[1]].map(|y| [x, y, low[2]]));
+        let mut points: Vec<Vector> = floor.concat();
+        points.extend(scene.path.iter().flat_map(|piece| &piece.points));
+        points.extend(scene.targets.iter().map(|target| target.point));
+        let sights = scene.around.sights.iter();
+        points.extend(sights.flat_map(|sight| [sight.from, sight.to]));
+        let [right, up] = camera.frame().map(Into::into);
+        let parts = self.parts.iter().map(|part| part.placed.shape);
+        for shape in scene.shapes().chain(parts) {
+            points.extend(solid::rim(&shape, right, up));
+        }
+        for it in &scene.around.walls {
+            points.extend(
+                wall::piece(it, scene)
+                    .into_iter()
+                    .map(conik::Vec3::to_array),
+            );
+        }
+        if scene.shows_base {
+            points.push([0.0; 3]);
+            points.extend(floor::axes(scene));
+        }
+        let left = floor::leftmost_corner(scene, camera);
+        points.push([left[0], left[1], high[2]]);
+        points
+    }
+
+    /// The path cut where its mode or its place among the solids changes.
+    fn strokes(
+        &self,
+        view: &View,
+        layer: &impl Fn(Vector) -> usize,
+    ) -> Vec<(usize, usize, Vec<Point>)> {
+        let mut strokes: Vec<(usize, usize, Vec<Point>)> = Vec::new();
+        for piece in &self.scene.path {
+            let mut points = piece
+                .points
+                .iter()
+                .map(|&point| (layer(point), view.place(point)));
+            let Some((mut depth, first)) = points.next() else {
+                continue;
+            };
+            let mut stroke = vec![first];
+            for (next, place) in points {
+                stroke.push(place);
+                if next != depth {
+                    let cut = std::mem::replace(&mut stroke, vec![place]);
+                    strokes.push((depth, piece.mode, cut));
+                    depth = next;
+                }
+            }
+            strokes.push((depth, piece.mode, stroke));
+        }
+        // Where several modes lie over each other, the one with active sets is on top.
+        strokes.sort_by_key(|stroke| !self.run.modes()[stroke.1].active.is_empty());
+        strokes
+    }
+}
+
+/// A dashed way with a head at its end.
+fn arrow(from: Point, to: Point, marks: &mut Marks) {
+    const WAY: &str = "#5f6b78";
+    let (dx, dy) = (to.0 - from.0, to.1 - from.1);
+    let length = dx.hypot(dy);
+    if length < 8.0 {
+        return;
+    }
+    let (ux, uy) = (dx / length, dy / length);
+    marks.line(from, to, Stroke::dashed(WAY, 1.2, "4 3"));
+    marks.circle(from, 2.0, "#ffffff", Stroke::solid(WAY, 1.2));
+    let head = [
+        to,
+        (to.0 - 9.0 * ux - 3.6 * uy, to.1 - 9.0 * uy + 3.6 * ux),
+        (to.0 - 9.0 * ux + 3.6 * uy, to.1 - 9.0 * uy - 3.6 * ux),
+    ];
+    marks.polygon(&head, WAY, 1.0);
+}
