@@ -2,11 +2,13 @@
 
 use std::collections::BTreeMap;
 
-use conik::{Interval, JointKind, Reason};
+use conik::{Interval, JointKind, Reason, Vec3};
 use conik_cli::report::units::{limit, quantity};
 use conik_sim::experiment::Experiment;
+use conik_sim::mover::Mover;
 use conik_sim::record::Record;
 use conik_sim::run::Columns;
+use conik_sim::scenario::TaskKind;
 
 use crate::failure::Failure;
 use crate::layout::{table, wrapped};
@@ -74,14 +76,7 @@ fn explain(asked_s: f64, record: &Record, experiment: &Experiment) -> String {
     }
     text += &tasks(record, experiment);
     for mover in &experiment.movers {
-        let name = experiment.controller.stack()[mover.task].name();
-        let [x, y, z] = mover
-            .point_at(record.t_s)
-            .map(|value| format!("{value:.4}"));
-        text += &wrapped(
-            "  ",
-            &format!("the point of `{name}` is at ({x}, {y}, {z}) m"),
-        );
+        text += &wrapped("  ", &moved(mover, record.t_s, experiment));
     }
     let stack = experiment.controller.stack();
     for reason in &record.reasons {
@@ -89,6 +84,28 @@ fn explain(asked_s: f64, record: &Record, experiment: &Experiment) -> String {
     }
     text += &wrapped("  - ", &speed(record, experiment));
     text
+}
+
+/// Where what moves of a task is: its point, its direction, its desired value.
+fn moved(mover: &Mover, t_s: f64, experiment: &Experiment) -> String {
+    let level = &experiment.controller.stack()[mover.task];
+    let what = match mover.kind {
+        TaskKind::Position | TaskKind::Pose { .. } => "target",
+        _ => "point",
+    };
+    let point = mover.point_at(t_s).map(|point| {
+        let [x, y, z] = point.map(|value| format!("{value:.4}"));
+        format!("{what} is at ({x}, {y}, {z}) m")
+    });
+    let turned = mover.motion.angular_velocity_rad_per_s.map(|_| {
+        let turned = Vec3::from(mover.motion.turned_at(t_s)).norm();
+        format!("direction has turned by {:.2} deg", turned.to_degrees())
+    });
+    let desired = mover
+        .desired_at(t_s)
+        .map(|value| format!("desired value is {}", quantity(value, level.task().unit())));
+    let ways: Vec<_> = [point, turned, desired].into_iter().flatten().collect();
+    format!("`{}`: its {}", level.name(), ways.join("; its "))
 }
 
 fn mode(record: &Record, experiment: &Experiment) -> String {

@@ -19,8 +19,6 @@ pub struct ShapePair {
     pub other_link: Option<String>,
     /// The other, in the frame of its link or in the world.
     pub other: Geometry,
-    /// How the other moves, if it does.
-    pub motion: Option<Motion>,
 }
 
 impl ShapePair {
@@ -55,14 +53,11 @@ impl Collision {
                     shape: shape.geometry.clone(),
                     other_link: None,
                     other: obstacle.geometry.clone(),
-                    motion: obstacle.motion,
                 };
-                tasks.push(kept_apart(
-                    &shape.name,
-                    &obstacle.name,
-                    pair,
-                    obstacle.distance_m,
-                ));
+                tasks.push(TaskConfig {
+                    motion: obstacle.motion,
+                    ..kept_apart(&shape.name, &obstacle.name, pair, obstacle.distance_m)
+                });
             }
         }
         let Some(own) = &self.self_collision else {
@@ -97,7 +92,6 @@ fn on_links(shape: &LinkShape, other: &LinkShape) -> ShapePair {
         shape: shape.geometry.clone(),
         other_link: Some(other.link.clone()),
         other: other.geometry.clone(),
-        motion: None,
     }
 }
 
@@ -106,6 +100,7 @@ fn kept_apart(name: &str, other: &str, pair: ShapePair, distance_m: f64) -> Task
         name: format!("{name}/{other}"),
         kind: TaskKind::Shapes(Box::new(pair)),
         frames: Frames::default(),
+        motion: Motion::default(),
         goal: GoalConfig::Set {
             min: Some(distance_m),
             max: None,

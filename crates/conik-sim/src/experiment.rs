@@ -24,7 +24,7 @@ pub struct Experiment {
     pub mode_order: ModeOrder,
     /// The position task that visits waypoints, and those.
     pub waypoints: Option<(TaskId, Waypoints)>,
-    /// The obstacles that move.
+    /// What moves besides the robot.
     pub movers: Vec<Mover>,
     /// Joint positions at the start [rad].
     pub q0: JointVec,
@@ -70,7 +70,7 @@ impl Experiment {
         let pairs = scenario.collision.tasks(&robot);
         for task in pairs.iter().chain(&scenario.tasks) {
             let id = add_task(&mut stack, &robot, task)?;
-            movers.extend(Mover::of(id, &task.kind));
+            movers.extend(Mover::of(id, task));
             stack.setpoints().set_damping(id, damping(task.damping))?;
             if let GoalConfig::Set {
                 recovery_per_s: Some(speed),
@@ -126,11 +126,14 @@ impl Experiment {
     }
 
     /// Tells the controller where what moves is at `t_s` [s], and how it moves on; before every tick.
-    pub fn move_world(&mut self, t_s: f64) {
+    ///
+    /// # Errors
+    ///
+    /// If a desired value has moved beyond all numbers, which none of a scenario that was checked does.
+    pub fn move_world(&mut self, t_s: f64) -> Result<(), StackError> {
         let period_s = self.period_s();
-        for mover in &self.movers {
-            mover.tell(&mut self.controller.setpoints(), t_s, period_s);
-        }
+        let mut movers = self.movers.iter();
+        movers.try_for_each(|mover| mover.tell(&mut self.controller.setpoints(), t_s, period_s))
     }
 }
 

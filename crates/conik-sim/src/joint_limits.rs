@@ -3,8 +3,8 @@
 use conik::Robot;
 
 use crate::scenario::{
-    Damping, DescriptionError, Frames, GoalConfig, LimitsConfig, RobotConfig, Scenario, TaskConfig,
-    TaskKind,
+    Damping, DescriptionError, Frames, GoalConfig, LimitsConfig, Motion, RobotConfig, Scenario,
+    TaskConfig, TaskKind,
 };
 
 /// How the names of the sets begin that keep the joints within their position limits.
@@ -23,6 +23,7 @@ impl Scenario {
                 name: format!("{LIMIT}{}", joint.name),
                 kind: TaskKind::Joint { joint: index + 1 },
                 frames: Frames::default(),
+                motion: Motion::default(),
                 goal: GoalConfig::Set {
                     min: min.is_finite().then_some(min),
                     max: max.is_finite().then_some(max),

@@ -36,7 +36,7 @@ pub(crate) fn add_task(
             let coordinate = Coordinate::of(frame, axis);
             add(stack, config, coordinate.relative_to(from))
         }
-        TaskKind::Distance { point_m, .. } => {
+        TaskKind::Distance { point_m } => {
             let distance = Distance::between(frame, point_m);
             add(stack, config, distance.relative_to(from))
         }
@@ -76,7 +76,7 @@ pub(crate) fn add_task(
             let angle = PointingAngle::between(frame, direction).with_axis(axis);
             add(stack, config, angle.relative_to(from))
         }
-        TaskKind::LookAt { point_m, .. } => {
+        TaskKind::LookAt { point_m } => {
             let look = LookAt::between(frame, point_m);
             add(stack, config, look.relative_to(from))
         }

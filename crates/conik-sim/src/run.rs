@@ -111,7 +111,9 @@ fn drive(
         }
         let feedback = arm.next_cycle()?;
         let t_s = tick as f64 / rate_hz;
-        experiment.move_world(t_s);
+        experiment
+            .move_world(t_s)
+            .map_err(|error| ArmError::new("bad-target", error.to_string()))?;
         let mut record = decide(experiment, &columns, &q, &feedback)?;
         let step = experiment.controller.last_step();
         arm.send(&Reference {

@@ -152,7 +152,7 @@ fn obstacle_moves_as_the_scenario_says() {
         .find("forearm/ball")
         .expect("it is there");
     let mut distance_at = |t_s: f64| {
-        experiment.move_world(t_s);
+        experiment.move_world(t_s).expect("finite");
         let mut value = [0.0];
         let task = experiment.controller.stack()[id].task();
         task.value(&kinematics, &mut value);

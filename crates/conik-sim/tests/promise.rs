@@ -139,16 +139,15 @@ fn crossing(speed: f64) -> Scenario {
             gain_per_s: 1.0,
         },
         frames: Frames::default(),
+        motion: Motion::default(),
         damping: Damping::default(),
     });
     let mut start = tool;
     start[1] -= 0.3;
-    scenario.tasks[0].kind = TaskKind::Distance {
-        point_m: start,
-        motion: Some(Motion {
-            velocity_m_per_s: [0.0, speed, 0.0],
-            moves_until_s: None,
-        }),
+    scenario.tasks[0].kind = TaskKind::Distance { point_m: start };
+    scenario.tasks[0].motion = Motion {
+        velocity_m_per_s: Some([0.0, speed, 0.0]),
+        ..Motion::default()
     };
     scenario.tasks[0].goal = GoalConfig::Set {
         min: Some(0.1),
@@ -190,11 +189,11 @@ fn ball_that_moves_is_avoided_where_the_arm_is_fast_enough_and_else_announced() 
 #[test]
 fn set_that_starts_outside_is_entered_at_the_speed_of_recovery() {
     let mut scenario = crossing(0.2);
-    let TaskKind::Distance { point_m, motion } = &mut scenario.tasks[0].kind else {
+    let TaskKind::Distance { point_m } = &mut scenario.tasks[0].kind else {
         panic!("a ball");
     };
     point_m[1] += 0.25;
-    *motion = None;
+    scenario.tasks[0].motion = Motion::default();
     scenario.control.duration_s = 2.0;
     let entered = |recovery: Option<f64>| {
         let mut scenario = scenario.clone();

@@ -179,14 +179,15 @@ fn limits_motion_and_recovery_read_as_written_and_back() {
     let accelerations = limits.acceleration_limits_rad_per_s2.as_deref();
     assert_eq!(accelerations, Some(&[1.0, 2.0, 3.0, 4.0, 5.0, 6.0][..]));
     let motion = Motion {
-        velocity_m_per_s: [0.0, -0.2, 0.0],
+        velocity_m_per_s: Some([0.0, -0.2, 0.0]),
         moves_until_s: Some(4.0),
+        ..Motion::default()
     };
     let kind = TaskKind::Distance {
         point_m: [1.0, 2.0, 3.0],
-        motion: Some(motion),
     };
     assert_eq!(scenario.tasks[0].kind, kind);
+    assert_eq!(scenario.tasks[0].motion, motion);
     let GoalConfig::Set { recovery_per_s, .. } = scenario.tasks[0].goal else {
         panic!("a set");
     };

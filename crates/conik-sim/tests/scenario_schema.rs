@@ -125,6 +125,19 @@ fn schema_and_reader_refuse_the_same_mistakes() {
             "velocity_m_per_s = [1, 2]",
         ),
         ("velocity_m_per_s = [0, 0, 0.1]", ""),
+        ("min = 0.1\n", "min = 0.1\ndesired_per_s = 1\n"),
+        (
+            "direction = [1, 0, 0]",
+            "direction = [1, 0, 0]\nangular_velocity_deg_per_s = [0, 0, 1]\nangular_velocity_rad_per_s = [0, 0, 1]",
+        ),
+        (
+            "direction = [1, 0, 0]",
+            "direction = [1, 0, 0]\nmoves_until_s = 1",
+        ),
+        (
+            "target_m = [1, 2, 3]",
+            "waypoints_m = [[1, 2, 3]]\nacceptance_m = 1\nvelocity_m_per_s = [1, 2, 3]",
+        ),
         ("recovery_per_s = 0.1", "recovery_per_s = 0"),
         ("gain_per_s = 2", "gain_per_s = 2\nrecovery_per_s = 1"),
         ("damping = 0.1", "damping = -0.1"),

@@ -48,6 +48,44 @@ const TYPES: &[(&str, &str)] = &[
     ),
 ];
 
+/// Types with what moves of them.
+const MOVING: &[(&str, &str)] = &[
+    (
+        "position",
+        "target_m = [0.4, 0, 0]\nvelocity_m_per_s = [0, 0.1, 0]\nmoves_until_s = 2\ngain_per_s = 1",
+    ),
+    (
+        "pose",
+        "target_m = [0.4, 0, 0]\ndesired_rpy_deg = [170, -20, 30]\nvelocity_m_per_s = [0, 0.1, 0]\n\
+         angular_velocity_rad_per_s = [0, 0.3, 0.1]\nmoves_until_s = 2\ngain_per_s = 1",
+    ),
+    (
+        "field_of_view",
+        "direction = [0, 0, -1]\nangular_velocity_deg_per_s = [10, 0, 0]\nmax = 2",
+    ),
+    (
+        "pointing_angle",
+        "direction = [1, 0, 7]\nangular_velocity_rad_per_s = [0.1, 0, 0]\nmoves_until_s = 1\n\
+         desired = 0.2\ndesired_per_s = 0.1\ngain_per_s = 2",
+    ),
+    (
+        "orientation",
+        "desired_rpy_deg = [170, -20, 30]\nangular_velocity_deg_per_s = [0, 0, 10]\ngain_per_s = 1",
+    ),
+    (
+        "orientation_angle",
+        "desired_rpy_deg = [170, -20, 30]\nangular_velocity_deg_per_s = [0, 0, 10]\nmax = 3",
+    ),
+    (
+        "coordinate",
+        "axis = \"x\"\ndesired = 0.4\ndesired_per_s = -0.1\nmoves_until_s = 3\ngain_per_s = 1",
+    ),
+    (
+        "joint",
+        "joint = 3\ndesired = 1\ndesired_per_s = 2e-2\ngain_per_s = 1",
+    ),
+];
+
 const OF_JOINTS: &[&str] = &["joint", "posture", "joint_speed"];
 
 fn scenario(type_name: &str, keys: &str) -> String {
@@ -64,7 +102,7 @@ fn read(text: &str) -> Scenario {
 /// With the frames that the type may have.
 fn cases() -> Vec<(&'static str, String)> {
     let mut cases = Vec::new();
-    for (name, keys) in TYPES {
+    for (name, keys) in TYPES.iter().chain(MOVING) {
         cases.push((*name, scenario(name, keys)));
         let seen = "relative_to = \"link_1\"";
         if *name == "elbow" {
@@ -118,7 +156,7 @@ fn every_type_runs() {
         let mut experiment = Experiment::new(&read(&text)).expect(name);
         let mut q = experiment.q0;
         for tick in 0..25 {
-            experiment.move_world(f64::from(tick) / 125.0);
+            experiment.move_world(f64::from(tick) / 125.0).expect(name);
             let step = experiment.controller.step(&q).expect(name);
             q = step.q_ref;
         }
@@ -149,99 +187,148 @@ fn a_frame_moves_as_the_file_says() {
     assert_eq!(step.value(task)[0], expected);
 }
 
+/// Type, keys, and a part of the message.
+const MISTAKES: &[(&str, &str, &str)] = &[
+    (
+        "height",
+        "min = 0\nframe = \"link_7\"",
+        "the robot has no link \"link_7\"",
+    ),
+    (
+        "height",
+        "min = 0\nframe = \"lnk_3\"",
+        "did you mean \"link_3\"?",
+    ),
+    (
+        "joint",
+        "joint = 1\nmax = 1\nframe = \"link_1\"",
+        "`frame` is a key of type",
+    ),
+    (
+        "orientation",
+        "gain_per_s = 1",
+        "desired_rpy_deg = [180, 0, 90]",
+    ),
+    (
+        "orientation",
+        "desired_quaternion_wxyz = [1, 0, 0]\ngain_per_s = 1",
+        "expected four numbers, w, x, y and z; found 3",
+    ),
+    (
+        "orientation",
+        "desired_quaternion_wxyz = [0, 0, 0, 0]\ngain_per_s = 1",
+        "the quaternion 0 is no orientation",
+    ),
+    (
+        "orientation",
+        "desired_rpy_deg = [0, 0, 0]\ndesired_quaternion_wxyz = [1, 0, 0, 0]\ngain_per_s = 1",
+        "state it once",
+    ),
+    (
+        "orientation",
+        "desired_rpy_deg = [0, 0, 0]\nmax = 1",
+        "a task of type \"orientation\" cannot be a set",
+    ),
+    (
+        "pose",
+        "desired_rpy_deg = [0, 0, 0]\ngain_per_s = 1",
+        "target_m",
+    ),
+    (
+        "pointing_angle",
+        "direction = [0, 0, 0]\nmax = 1",
+        "the zero vector has no direction",
+    ),
+    (
+        "pointing_angle",
+        "direction = [0, 0, 1]\nmin = 4",
+        "its values are from",
+    ),
+    (
+        "plane",
+        "normal = [0, 0, 0]\nmin = 0",
+        "the zero vector has no direction",
+    ),
+    (
+        "posture",
+        "desired_deg = [1, 2]\ngain_per_s = 1",
+        "of 6 joints, found 2 numbers",
+    ),
+    (
+        "posture",
+        "joints = [1, 1]\ndesired_deg = [1, 2]\ngain_per_s = 1",
+        "joint 1 stands in the list twice",
+    ),
+    (
+        "posture",
+        "desired_deg = [1, 2, 3, 4, 5, 6]",
+        "an equality task needs a gain",
+    ),
+    ("joint_speed", "joint = 1", "speed_deg_per_s"),
+    (
+        "joint_speed",
+        "joint = 1\nspeed_deg_per_s = 1\ngain_per_s = 1",
+        "`gain_per_s`",
+    ),
+    (
+        "manipulability",
+        "part = \"wrist\"\nmin = 0",
+        "unknown name \"wrist\"",
+    ),
+    ("manipulability", "max = -1", "its values are never below 0"),
+    ("elbow", "direction = [0, 0, 1]\nmin = 0", "shoulder"),
+    (
+        "position",
+        "waypoints_m = [[0, 0, 1]]\nacceptance_m = 0.1\ngain_per_s = 1\nvelocity_m_per_s = [0, 0, 1]",
+        "waypoints stay where they are",
+    ),
+    (
+        "position",
+        "target_m = [0, 0, 1]\ngain_per_s = 1\nmoves_until_s = 1",
+        "nothing moves; remove it, or write for example `velocity_m_per_s",
+    ),
+    (
+        "position",
+        "target_m = [0, 0, 1]\ngain_per_s = 1\nangular_velocity_deg_per_s = [0, 0, 1]",
+        "`angular_velocity_deg_per_s` is a key of type",
+    ),
+    (
+        "position",
+        "target_m = [0, 0, 1]\ngain_per_s = 1\nvelocity_m_per_s = [0, 0, 1e7]",
+        "out of range",
+    ),
+    (
+        "orientation",
+        "desired_rpy_deg = [0, 0, 0]\ngain_per_s = 1\nangular_velocity_deg_per_s = 3",
+        "expected a list of three numbers, found the number 3",
+    ),
+    (
+        "pose",
+        "target_m = [0, 0, 1]\ndesired_rpy_deg = [0, 0, 0]\ngain_per_s = 1\n\
+             angular_velocity_deg_per_s = [0, 0, 1]\nangular_velocity_rad_per_s = [0, 0, 1]",
+        "both `angular_velocity_deg_per_s` and `angular_velocity_rad_per_s` are given",
+    ),
+    ("height", "min = 0\ndesired_per_s = 1", "and this is a set"),
+    (
+        "pointing_angle",
+        "direction = [0, 0, 1]\ndesired = 0.1\ndesired_per_s = 1\nmoves_until_s = 4\ngain_per_s = 1",
+        "after 4 s the desired value is 4.1, out of reach",
+    ),
+    (
+        "pointing_angle",
+        "direction = [0, 0, 1]\ndesired = 0.1\ndesired_per_s = -0.01\ngain_per_s = 1",
+        "after 60 s the desired value is -0.5, out of reach",
+    ),
+    (
+        "joint_speed",
+        "joint = 1\nspeed_deg_per_s = 1\ndesired_per_s = 1",
+        "`desired_per_s`",
+    ),
+];
+
 #[test]
 fn mistakes_are_told_with_what_would_be_right() {
-    let quaternion = "desired_quaternion_wxyz = [1, 0, 0]\ngain_per_s = 1";
-    for (type_name, keys, what) in [
-        (
-            "height",
-            "min = 0\nframe = \"link_7\"",
-            "the robot has no link \"link_7\"",
-        ),
-        (
-            "height",
-            "min = 0\nframe = \"lnk_3\"",
-            "did you mean \"link_3\"?",
-        ),
-        (
-            "joint",
-            "joint = 1\nmax = 1\nframe = \"link_1\"",
-            "`frame` is a key of type",
-        ),
-        (
-            "orientation",
-            "gain_per_s = 1",
-            "desired_rpy_deg = [180, 0, 90]",
-        ),
-        (
-            "orientation",
-            quaternion,
-            "expected four numbers, w, x, y and z; found 3",
-        ),
-        (
-            "orientation",
-            "desired_quaternion_wxyz = [0, 0, 0, 0]\ngain_per_s = 1",
-            "the quaternion 0 is no orientation",
-        ),
-        (
-            "orientation",
-            "desired_rpy_deg = [0, 0, 0]\ndesired_quaternion_wxyz = [1, 0, 0, 0]\ngain_per_s = 1",
-            "state it once",
-        ),
-        (
-            "orientation",
-            "desired_rpy_deg = [0, 0, 0]\nmax = 1",
-            "a task of type \"orientation\" cannot be a set",
-        ),
-        (
-            "pose",
-            "desired_rpy_deg = [0, 0, 0]\ngain_per_s = 1",
-            "target_m",
-        ),
-        (
-            "pointing_angle",
-            "direction = [0, 0, 0]\nmax = 1",
-            "the zero vector has no direction",
-        ),
-        (
-            "pointing_angle",
-            "direction = [0, 0, 1]\nmin = 4",
-            "its values are from",
-        ),
-        (
-            "plane",
-            "normal = [0, 0, 0]\nmin = 0",
-            "the zero vector has no direction",
-        ),
-        (
-            "posture",
-            "desired_deg = [1, 2]\ngain_per_s = 1",
-            "of 6 joints, found 2 numbers",
-        ),
-        (
-            "posture",
-            "joints = [1, 1]\ndesired_deg = [1, 2]\ngain_per_s = 1",
-            "joint 1 stands in the list twice",
-        ),
-        (
-            "posture",
-            "desired_deg = [1, 2, 3, 4, 5, 6]",
-            "an equality task needs a gain",
-        ),
-        ("joint_speed", "joint = 1", "speed_deg_per_s"),
-        (
-            "joint_speed",
-            "joint = 1\nspeed_deg_per_s = 1\ngain_per_s = 1",
-            "`gain_per_s`",
-        ),
-        (
-            "manipulability",
-            "part = \"wrist\"\nmin = 0",
-            "unknown name \"wrist\"",
-        ),
-        ("manipulability", "max = -1", "its values are never below 0"),
-        ("elbow", "direction = [0, 0, 1]\nmin = 0", "shoulder"),
-    ] {
+    for (type_name, keys, what) in MISTAKES {
         let errors = Scenario::from_toml(&scenario(type_name, keys)).expect_err(keys);
         let told = errors.to_string();
         assert!(told.contains(what), "{type_name}, {keys}: {told}");

@@ -85,7 +85,7 @@ impl Surroundings {
             };
             let shape = obstacle.geometry.shape();
             let tint = tint(run, of_it);
-            found.add_shape(run, &obstacle.name, shape, obstacle.motion.as_ref(), tint);
+            found.add_shape(run, &obstacle.name, shape, &obstacle.motion, tint);
         }
         found
     }
@@ -97,24 +97,24 @@ impl Surroundings {
         };
         let tint = tint(run, |set| set == task.name);
         match &task.kind {
-            TaskKind::Distance { point_m, motion } => {
+            TaskKind::Distance { point_m } => {
                 let is_radius = |radius: &f64| *radius > 0.0 && radius.is_finite();
                 if let Some(radius) = min.filter(is_radius) {
                     let shape = Sphere::new(*point_m, radius).into();
-                    self.add_shape(run, &task.name, shape, motion.as_ref(), tint);
+                    self.add_shape(run, &task.name, shape, &task.motion, tint);
                 }
                 if let Some(radius) = max.filter(is_radius) {
                     self.bounds.push(Bound {
                         name: task.name.clone(),
-                        centre: at_end(run, *point_m, motion.as_ref()),
+                        centre: at_end(run, *point_m, &task.motion),
                         radius,
                     });
                 }
             }
-            TaskKind::LookAt { point_m, motion } => self.sights.push(Sight {
+            TaskKind::LookAt { point_m } => self.sights.push(Sight {
                 name: task.name.clone(),
                 from: *point_m,
-                to: at_end(run, *point_m, motion.as_ref()),
+                to: at_end(run, *point_m, &task.motion),
             }),
             TaskKind::Plane { normal, offset_m } => {
                 let limits = (min.map(|it| it + offset_m), max.map(|it| it + offset_m));
@@ -157,11 +157,11 @@ impl Surroundings {
         run: &Run,
         name: &str,
         shape: Shape,
-        motion: Option<&Motion>,
+        motion: &Motion,
         tint: &'static str,
     ) {
         let name = name.to_owned();
-        let moved = motion.map(|motion| motion.point_at([0.0; 3], run.summary().ended_at_s));
+        let moved = (!motion.is_rest()).then(|| at_end(run, [0.0; 3], motion));
         let shape = shape.placed(&Pose::at(moved.unwrap_or_default().into()));
         if let Shape::HalfSpace(half_space) = shape {
             self.walls.push(of_half_space(name, &half_space, tint));
@@ -194,10 +194,8 @@ fn of_half_space(name: String, half_space: &HalfSpace, tint: &'static str) -> Wa
 }
 
 /// Where a point is at the end of the run.
-fn at_end(run: &Run, point: Vector, motion: Option<&Motion>) -> Vector {
-    motion.map_or(point, |motion| {
-        motion.point_at(point, run.summary().ended_at_s)
-    })
+pub(super) fn at_end(run: &Run, point: Vector, motion: &Motion) -> Vector {
+    motion.point_at(point, run.summary().ended_at_s)
 }
 
 /// The colour of the mode that was longest in force among those in which a set was active that `is_meant`.

@@ -6,7 +6,7 @@ use conik_sim::scenario::{GoalConfig, TaskConfig, TaskKind};
 use super::axis::nice_step;
 use super::camera::{Vector, difference, dot};
 use super::curve::decimate_in_space;
-use super::obstacles::{Obstacle, Surroundings};
+use super::obstacles::{Obstacle, Surroundings, at_end};
 use super::run::Run;
 use super::solid::rim;
 
@@ -168,6 +168,7 @@ impl Scene {
     }
 }
 
+/// Where the tool should go; of what moves, where it is in the end.
 fn targets_of(run: &Run) -> Vec<Target> {
     let mut targets = Vec::new();
     let in_world = |task: &&TaskConfig| task.frames.relative_to.is_none();
@@ -187,13 +188,13 @@ fn targets_of(run: &Run) -> Vec<Target> {
             (TaskKind::Position, GoalConfig::Desired { desired, .. }) => {
                 if let [x, y, z] = desired[..] {
                     targets.push(Target {
-                        point: [x, y, z],
+                        point: at_end(run, [x, y, z], &task.motion),
                         acceptance: 0.0,
                     });
                 }
             }
             (TaskKind::Pose { target_m, .. }, _) => targets.push(Target {
-                point: *target_m,
+                point: at_end(run, *target_m, &task.motion),
                 acceptance: 0.0,
             }),
             _ => {}

@@ -74,24 +74,40 @@ fn held(result: &TaskSummary) -> String {
     time(result.active_s) + &stretches
 }
 
+/// What is measured, and what of it moves: `distance to (0, 0, 1), moves at (0.1, 0, 0) m/s until 4 s`.
 fn kind(run: &Run, task: &TaskConfig) -> String {
-    match task.kind {
-        TaskKind::Distance {
-            point_m,
-            motion: None,
-        } => format!("distance to {}", point(&point_m)),
-        TaskKind::Distance {
-            point_m,
-            motion: Some(motion),
-        } => {
-            let velocity = point(&motion.velocity_m_per_s);
-            let until = motion.moves_until_s.map(seconds);
-            let until = until.map_or(String::new(), |until| format!(", until {until}"));
-            format!(
-                "distance to a point from {} at {velocity} m/s{until}",
-                point(&point_m)
-            )
+    let mut kind = kind_at_start(run, task);
+    let motion = &task.motion;
+    let rate = motion.desired_per_s.map(|rate| number(rate, 4));
+    let ways = [
+        (
+            " moves at",
+            motion.velocity_m_per_s.map(|it| point(&it)),
+            "m/s",
+        ),
+        (
+            " turns at",
+            motion.angular_velocity_rad_per_s.map(|it| point(&it)),
+            "rad/s",
+        ),
+        (" goal moves at", rate, "a second"),
+    ];
+    let mut joint = ",";
+    for (how, speed, unit) in ways {
+        if let Some(speed) = speed {
+            kind += &format!("{joint}{how} {speed} {unit}");
+            joint = " and";
         }
+    }
+    if let Some(until) = motion.moves_until_s {
+        kind += &format!(" until {}", seconds(until));
+    }
+    kind
+}
+
+fn kind_at_start(run: &Run, task: &TaskConfig) -> String {
+    match task.kind {
+        TaskKind::Distance { point_m } => format!("distance to {}", point(&point_m)),
         TaskKind::FieldOfView { .. } => "field of view".to_owned(),
         TaskKind::PointingAngle { direction, .. } => {
             format!(

@@ -9,8 +9,8 @@ use std::time::Duration;
 use conik_sim::cycle_times::{CycleSummary, CycleTimes};
 use conik_sim::monitors::{JointMonitor, Monitors, Sighting, Verdict};
 use conik_sim::scenario::{
-    Border, Control, Damping, Frames, GoalConfig, LimitsConfig, ModeRule, PlacesConfig, Recursion,
-    RobotConfig, RobotSource, Scenario, TaskConfig, TaskKind,
+    Border, Control, Damping, Frames, GoalConfig, LimitsConfig, ModeRule, Motion, PlacesConfig,
+    Recursion, RobotConfig, RobotSource, Scenario, TaskConfig, TaskKind,
 };
 use conik_sim::summary::{
     FORMAT, ModeChange, Outcome, Properties, Property, Settings, StepTime, StepWork, Summary,
@@ -163,7 +163,6 @@ impl Invention {
                 name,
                 kind: TaskKind::Distance {
                     point_m: [0.4, -0.3 + 0.1 * f64::from(n), -0.3],
-                    motion: None,
                 },
                 goal: GoalConfig::Set {
                     min: Some(0.17),
@@ -172,6 +171,7 @@ impl Invention {
                     gain_per_s: None,
                 },
                 frames: Frames::default(),
+                motion: Motion::default(),
                 damping: Damping::default(),
             })
             .collect();
@@ -195,6 +195,7 @@ impl Invention {
                     }
                 },
                 frames: Frames::default(),
+                motion: Motion::default(),
                 damping: Damping::default(),
             });
         }
@@ -212,6 +213,7 @@ impl Invention {
                     gain_per_s: Some(1.0),
                 },
                 frames: Frames::default(),
+                motion: Motion::default(),
                 damping: Damping::default(),
             };
             tasks.insert(0, view);

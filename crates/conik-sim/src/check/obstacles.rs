@@ -12,15 +12,20 @@ fn obstacle(task: &TaskConfig) -> Option<(Vec3, f64)> {
         return None;
     }
     match (&task.kind, &task.goal) {
-        (&TaskKind::Distance { point_m, motion }, GoalConfig::Set { min: Some(min), .. }) => {
-            let rest = match motion {
-                Some(motion) => motion.point_at(point_m, motion.moves_until_s?),
-                None => point_m,
-            };
-            Some((rest.into(), *min))
+        (&TaskKind::Distance { point_m }, GoalConfig::Set { min: Some(min), .. }) => {
+            Some((rest(task, point_m)?, *min))
         }
         _ => None,
     }
+}
+
+/// Where a point of a task is in the end; `None` if it never comes to rest.
+fn rest(task: &TaskConfig, start_m: [f64; 3]) -> Option<Vec3> {
+    if task.motion.is_rest() {
+        return Some(start_m.into());
+    }
+    let until_s = task.motion.moves_until_s?;
+    Some(task.motion.point_at(start_m, until_s).into())
 }
 
 /// An obstacle that is faster than the tool can be at the start, in the direction in which it moves,
@@ -32,15 +37,13 @@ pub(super) fn obstacles_too_fast(
     doubts: &mut Vec<String>,
 ) {
     for task in &scenario.tasks {
-        let (TaskKind::Distance { motion, .. }, Some(_)) = (&task.kind, keeps_away(task)) else {
+        let (TaskKind::Distance { .. }, Some(_)) = (&task.kind, keeps_away(task)) else {
             continue;
         };
         if !task.frames.is_tool_in_world() {
             continue;
         }
-        let velocity: Vec3 = motion
-            .map_or([0.0; 3], |motion| motion.velocity_m_per_s)
-            .into();
+        let velocity: Vec3 = task.motion.velocity_m_per_s.unwrap_or_default().into();
         let speed = velocity.norm();
         let fastest = fastest_along(velocity * (1.0 / speed), experiment, kinematics);
         if speed > fastest {
@@ -91,8 +94,10 @@ pub(super) fn targets(scenario: &Scenario) -> Vec<(String, Vec3)> {
                 }
             }
             (TaskKind::Position, GoalConfig::Desired { desired, .. }) => {
-                if let &[x, y, z] = desired.as_slice() {
-                    targets.push((format!("the target of `{}`", task.name), Vec3::new(x, y, z)));
+                if let &[x, y, z] = desired.as_slice()
+                    && let Some(target) = rest(task, [x, y, z])
+                {
+                    targets.push((format!("the target of `{}`", task.name), target));
                 }
             }
             _ => {}

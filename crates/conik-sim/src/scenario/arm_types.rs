@@ -6,20 +6,20 @@ use super::config::TaskKind;
 use super::keys;
 use super::posture;
 use super::robot::{in_one_unit, of_joint};
-use super::task_types::{GoalShape, TaskType};
+use super::task_types::{GoalShape, PLAIN, TaskType};
 
 pub(super) const POSTURE: TaskType = TaskType {
     name: "posture",
     about: "Positions of all joints, or of some [rad, or m]; cannot be a set, \"joint\" can",
-    keys: &[],
-    optional: &[(&keys::JOINTS, None)],
-    one_of: &[],
+    optional: &[&keys::JOINTS],
+    frames: &[],
     goal: GoalShape::Posture,
     read: |table, robot, found| {
         Some(TaskKind::Posture {
             joints: posture::joints(table, robot, found)?,
         })
     },
+    ..PLAIN
 };
 
 pub(super) const JOINT_SPEED: TaskType = TaskType {
@@ -27,7 +27,7 @@ pub(super) const JOINT_SPEED: TaskType = TaskType {
     about: "Speed of one joint, wherever it is; its value is the joint's position [rad, or m]; cannot be a \
             set, speed limits stand in `[robot]`",
     keys: &[&keys::JOINT],
-    optional: &[],
+    frames: &[],
     one_of: &[&keys::SPEED_DEG_PER_S, &keys::SPEED_RAD_PER_S],
     goal: GoalShape::Vanishing {
         size: 1,
@@ -48,39 +48,34 @@ pub(super) const JOINT_SPEED: TaskType = TaskType {
             speed_rad_per_s: of_joint(robot, joint - 1, in_rad)(speed),
         })
     },
+    ..PLAIN
 };
 
 pub(super) const MANIPULABILITY: TaskType = TaskType {
     name: "manipulability",
     about: "Manipulability √det(J Jᵀ) [m³, of an orientation -]: 0 at a singularity",
-    keys: &[],
-    optional: &[
-        (&keys::PART, None),
-        (&keys::FRAME, None),
-        (&keys::RELATIVE_TO, None),
-    ],
-    one_of: &[],
+    optional: &[&keys::PART],
     goal: GoalShape::Scalar(0.0, f64::INFINITY),
     read: |table, robot, found| {
         Some(TaskKind::Manipulability {
             part: posture::part(table, robot, found)?,
         })
     },
+    ..PLAIN
 };
 
 pub(super) const SMALLEST_SINGULAR_VALUE: TaskType = TaskType {
     name: "smallest_singular_value",
     about: "Smallest singular value of the Jacobian [m/rad, of an orientation or a pose -]: the least speed \
             for a joint speed of 1; 0 at a singularity",
-    keys: &[],
-    optional: MANIPULABILITY.optional,
-    one_of: &[],
+    optional: &[&keys::PART],
     goal: MANIPULABILITY.goal,
     read: |table, robot, found| {
         Some(TaskKind::SmallestSingularValue {
             part: posture::part(table, robot, found)?,
         })
     },
+    ..PLAIN
 };
 
 pub(super) const ELBOW: TaskType = TaskType {
@@ -92,8 +87,7 @@ pub(super) const ELBOW: TaskType = TaskType {
         &keys::WRIST,
         &keys::DIRECTION,
     ],
-    optional: &[(&keys::RELATIVE_TO, None)],
-    one_of: &[],
+    frames: &[&keys::RELATIVE_TO],
     goal: GoalShape::Scalar(-PI, PI),
     read: |table, robot, found| {
         let [shoulder, elbow, wrist] = [&keys::SHOULDER, &keys::ELBOW, &keys::WRIST]
@@ -108,4 +102,5 @@ pub(super) const ELBOW: TaskType = TaskType {
             direction: direction?,
         })
     },
+    ..PLAIN
 };

@@ -55,8 +55,8 @@ pub struct Obstacle {
     /// Least distance between it and the robot's shapes [m].
     pub distance_m: f64,
     /// How it moves, if it does.
-    #[serde(flatten, skip_serializing_if = "Option::is_none")]
-    pub motion: Option<Motion>,
+    #[serde(flatten)]
+    pub motion: Motion,
 }
 
 /// How the robot's shapes keep away from each other.
@@ -137,7 +137,7 @@ fn read_obstacle(table: &Table, taken: &mut Vec<String>, found: &mut Mistakes) -
     let name = names::read(table, found)
         .and_then(|name| unique(name.value, name.span, table, taken, found));
     let distance_m = table.number(&DISTANCE_M, found).required(table, found);
-    let motion = motion::read(table, found).map(Some).or(None);
+    let motion = motion::read(table, keys::MOVES, found);
     let geometry = geometry_type.and_then(|it| geometry::read(table, it, found));
     Some(Obstacle {
         name: name?,

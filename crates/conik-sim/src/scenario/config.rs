@@ -135,6 +135,9 @@ pub struct TaskConfig {
     /// Of which frame, and as which other one sees it.
     #[serde(flatten)]
     pub frames: Frames,
+    /// How points, directions and desired values move that are given as what they are at t = 0.
+    #[serde(flatten)]
+    pub motion: Motion,
     /// What is asked of it.
     #[serde(flatten)]
     pub goal: GoalConfig,
@@ -156,11 +159,8 @@ pub enum TaskKind {
     },
     /// Distance of the frame to a point [m].
     Distance {
-        /// The point [m], at t = 0 if it moves.
+        /// The point [m].
         point_m: [f64; 3],
-        /// How it moves, if it does.
-        #[serde(flatten, skip_serializing_if = "Option::is_none")]
-        motion: Option<Motion>,
     },
     /// Norm of (direction − z axis of the frame) [-].
     FieldOfView {
@@ -193,11 +193,8 @@ pub enum TaskKind {
     },
     /// Angle between the frame's z axis and the line of sight to a point [rad].
     LookAt {
-        /// The point [m], at t = 0 if it moves.
+        /// The point [m].
         point_m: [f64; 3],
-        /// How it moves, if it does.
-        #[serde(flatten, skip_serializing_if = "Option::is_none")]
-        motion: Option<Motion>,
     },
     /// Signed distance of the frame to a plane [m].
     Plane {

@@ -260,12 +260,21 @@ fn unreachable_value(
     values: (f64, f64),
     found: &mut Mistakes,
 ) {
-    let help = match values {
+    let what = format!("{} is out of reach of a task of this type", shown(value));
+    found.add(
+        table.span_of(key),
+        table.path_of(key),
+        what,
+        possible(values),
+    );
+}
+
+/// Which values a task can have, for people.
+pub(super) fn possible(values: (f64, f64)) -> String {
+    match values {
         (least, most) if most.is_finite() => format!("its values are from {least} to {most}"),
         (least, _) => format!("its values are never below {least}"),
-    };
-    let what = format!("{} is out of reach of a task of this type", shown(value));
-    found.add(table.span_of(key), table.path_of(key), what, help);
+    }
 }
 
 fn contradiction(table: &Table, key: &Key, what: &str, found: &mut Mistakes) {

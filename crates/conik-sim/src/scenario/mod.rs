@@ -27,6 +27,7 @@ mod limits;
 mod load;
 mod mistake;
 mod motion;
+mod moving_goal;
 mod names;
 mod orientation;
 mod orientation_types;

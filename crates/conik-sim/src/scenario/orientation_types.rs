@@ -4,17 +4,15 @@ use std::f64::consts::PI;
 
 use super::config::TaskKind;
 use super::keys;
-use super::motion;
 use super::orientation;
-use super::task_types::{GoalShape, OF_FRAME, OF_FRAME_AND_MOVING_POINT, TaskType};
+use super::task_types::{GoalShape, PLAIN, TaskType};
 
 pub(super) const ORIENTATION: TaskType = TaskType {
     name: "orientation",
     about: "Orientation against a desired one: the rotation vector between them [rad]; cannot be a set, \
             \"orientation_angle\" can",
-    keys: &[],
-    optional: OF_FRAME,
     one_of: &[&keys::DESIRED_RPY_DEG, &keys::DESIRED_QUATERNION_WXYZ],
+    moves: keys::TURNS,
     goal: GoalShape::Vanishing {
         size: 3,
         has_gain: true,
@@ -24,20 +22,21 @@ pub(super) const ORIENTATION: TaskType = TaskType {
             desired_quaternion_wxyz: orientation::read(table, found)?,
         })
     },
+    ..PLAIN
 };
 
 pub(super) const ORIENTATION_ANGLE: TaskType = TaskType {
     name: "orientation_angle",
     about: "Angle between the orientation and a desired one [rad], from 0 to π",
-    keys: &[],
-    optional: OF_FRAME,
     one_of: &[&keys::DESIRED_RPY_DEG, &keys::DESIRED_QUATERNION_WXYZ],
+    moves: keys::TURNS,
     goal: GoalShape::Scalar(0.0, PI),
     read: |table, _, found| {
         Some(TaskKind::OrientationAngle {
             desired_quaternion_wxyz: orientation::read(table, found)?,
         })
     },
+    ..PLAIN
 };
 
 pub(super) const POSE: TaskType = TaskType {
@@ -45,8 +44,8 @@ pub(super) const POSE: TaskType = TaskType {
     about: "Position [m] and orientation [rad] against desired ones, a metre counting as much as a radian; \
             cannot be a set",
     keys: &[&keys::TARGET_M],
-    optional: OF_FRAME,
     one_of: &[&keys::DESIRED_RPY_DEG, &keys::DESIRED_QUATERNION_WXYZ],
+    moves: keys::MOVES_AND_TURNS,
     goal: GoalShape::Vanishing {
         size: 6,
         has_gain: true,
@@ -59,18 +58,15 @@ pub(super) const POSE: TaskType = TaskType {
             desired_quaternion_wxyz: desired_quaternion_wxyz?,
         })
     },
+    ..PLAIN
 };
 
 pub(super) const POINTING_ANGLE: TaskType = TaskType {
     name: "pointing_angle",
     about: "Angle between an axis, the z axis unless `axis` is given, and a direction [rad], from 0 to π",
     keys: &[&keys::DIRECTION],
-    optional: &[
-        (&keys::AXIS_IN_FRAME, None),
-        (&keys::FRAME, None),
-        (&keys::RELATIVE_TO, None),
-    ],
-    one_of: &[],
+    optional: &[&keys::AXIS_IN_FRAME],
+    moves: keys::TURNS,
     goal: GoalShape::Scalar(0.0, PI),
     read: |table, _, found| {
         let direction = table
@@ -84,21 +80,18 @@ pub(super) const POINTING_ANGLE: TaskType = TaskType {
             direction: direction?,
         })
     },
+    ..PLAIN
 };
 
 pub(super) const LOOK_AT: TaskType = TaskType {
     name: "look_at",
     about: "Angle between the z axis and the line of sight to a point, which may move [rad], from 0 to π",
     keys: &[&keys::POINT_M],
-    optional: OF_FRAME_AND_MOVING_POINT,
-    one_of: &[],
+    moves: keys::MOVES,
     goal: GoalShape::Scalar(0.0, PI),
     read: |table, _, found| {
-        let point_m = table.vector(&keys::POINT_M, found).required(table, found);
-        let motion = motion::read(table, found).map(Some).or(None);
-        Some(TaskKind::LookAt {
-            point_m: point_m?,
-            motion: motion?,
-        })
+        let point_m = table.vector(&keys::POINT_M, found).required(table, found)?;
+        Some(TaskKind::LookAt { point_m })
     },
+    ..PLAIN
 };

@@ -23,6 +23,7 @@ use crate::joint_limits::limited_robot;
 pub(super) struct Surroundings<'r> {
     pub(super) robot: Option<&'r RobotFacts>,
     pub(super) rate_hz: Option<f64>,
+    pub(super) duration_s: Option<f64>,
 }
 
 impl Scenario {
@@ -105,6 +106,7 @@ fn read_file(file: &Table, folder: &Path, found: &mut Mistakes) -> Option<Scenar
     let surroundings = Surroundings {
         robot: facts,
         rate_hz: control.rate_hz,
+        duration_s: control.whole.as_ref().map(|control| control.duration_s),
     };
     let tasks: Option<Vec<ReadTask>> =
         file.tables(&keys::TASK, found)

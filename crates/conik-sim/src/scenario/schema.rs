@@ -232,8 +232,7 @@ fn shape(own: &[&'static Key], required: &[&str]) -> Value {
         let mut schema = table(&known, &needed);
         schema["properties"]["type"] = json!({ "const": geometry.name });
         if own.iter().any(|key| key.name == keys::MOVES_UNTIL_S.name) {
-            let velocity = json!({ keys::MOVES_UNTIL_S.name: [keys::VELOCITY_M_PER_S.name] });
-            set(&mut schema, "dependencies", velocity);
+            set(&mut schema, "dependencies", needs_speed(keys::MOVES));
         }
         schema
     });
@@ -250,7 +249,10 @@ fn task_of_type(task_type: &TaskType) -> Value {
     let always = keys::TASK_KEYS.iter().chain(task_type.keys);
     let required: Vec<_> = always.map(|key| key.name).collect();
     let mut schema = table(&known, &required);
-    set(&mut schema, "dependencies", task_type.dependencies());
+    let speeds = task_type.speed_keys();
+    if !speeds.is_empty() {
+        set(&mut schema, "dependencies", needs_speed(&speeds));
+    }
     set(&mut schema, "title", json!(task_type.name));
     set(&mut schema, "description", json!(task_type.about));
     schema["properties"]["type"] = json!({
@@ -259,7 +261,10 @@ fn task_of_type(task_type: &TaskType) -> Value {
     });
     let goals = match task_type.goal {
         GoalShape::Point => json!([
-            { "required": ["waypoints_m", "acceptance_m", "gain_per_s"], "not": { "required": ["target_m"] } },
+            { "required": ["waypoints_m", "acceptance_m", "gain_per_s"], "not": { "anyOf": [
+                { "required": ["target_m"] },
+                { "required": ["velocity_m_per_s"] },
+            ] } },
             { "required": ["target_m", "gain_per_s"], "not": { "anyOf": [
                 { "required": ["waypoints_m"] },
                 { "required": ["acceptance_m"] },
@@ -277,19 +282,30 @@ fn task_of_type(task_type: &TaskType) -> Value {
                 { "required": ["max"] },
                 { "required": ["recovery_per_s"] },
             ] } },
-            { "not": { "required": ["desired"] }, "anyOf": [
+            { "not": { "anyOf": [
+                { "required": ["desired"] },
+                { "required": ["desired_per_s"] },
+            ] }, "anyOf": [
                 { "required": ["min"] },
                 { "required": ["max"] },
             ] },
         ]),
     };
     set(&mut schema, "oneOf", goals);
+    let mut rules = Vec::new();
     if !task_type.one_of.is_empty() {
-        let alternatives = task_type.one_of.iter();
-        let alternatives: Vec<_> = alternatives
-            .map(|key| json!({ "required": [key.name] }))
-            .collect();
-        set(&mut schema, "allOf", json!([{ "oneOf": alternatives }]));
+        rules.push(json!({ "oneOf": each_alone(task_type.one_of) }));
+    }
+    if task_type
+        .moves
+        .iter()
+        .any(|key| key.name == keys::ANGULAR_VELOCITY_DEG_PER_S.name)
+    {
+        let both = keys::TURNS.iter().map(|key| key.name);
+        rules.push(json!({ "not": { "required": both.collect::<Vec<_>>() } }));
+    }
+    if !rules.is_empty() {
+        set(&mut schema, "allOf", json!(rules));
     }
     if let GoalShape::Scalar(least, most) = task_type.goal {
         restrict(&mut schema["properties"], least, most);
@@ -297,15 +313,15 @@ fn task_of_type(task_type: &TaskType) -> Value {
     schema
 }
 
-impl TaskType {
-    /// Keys that make sense beside others only.
-    fn dependencies(&self) -> Value {
-        let pairs = self.optional.iter().filter_map(|(key, needed)| {
-            let needed = needed.as_ref()?;
-            Some((key.name.to_owned(), json!([needed.name])))
-        });
-        Value::Object(pairs.collect())
-    }
+/// For each key a rule that it is there.
+fn each_alone(keys: &[&'static Key]) -> Vec<Value> {
+    let rules = keys.iter().map(|key| json!({ "required": [key.name] }));
+    rules.collect()
+}
+
+/// What comes to rest must move first.
+fn needs_speed(speeds: &[&'static Key]) -> Value {
+    json!({ keys::MOVES_UNTIL_S.name: { "anyOf": each_alone(speeds) } })
 }
 
 /// Brings the values that a type can have into its limits and its desired value.

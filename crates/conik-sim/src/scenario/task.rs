@@ -9,6 +9,8 @@ use super::goal;
 use super::key::Key;
 use super::keys;
 use super::mistake::{Mistakes, quoted};
+use super::motion;
+use super::moving_goal;
 use super::names;
 use super::place::Placed;
 use super::read::Surroundings;
@@ -65,8 +67,13 @@ pub(super) fn read(table: &Table, surroundings: Surroundings, found: &mut Mistak
 
     let kind = task_type.and_then(|it| (it.read)(&table, surroundings.robot, found));
     let frames = frames::read(&table, surroundings.robot, found);
+    let speeds = task_type.map_or(Vec::new(), TaskType::speed_keys);
+    let motion = motion::read(&table, &speeds, found);
     let goal = match task_type {
-        Some(task_type) => goal::read(&table, task_type, surroundings, found),
+        Some(task_type) => {
+            moving_goal::check(&table, task_type, motion.as_ref(), surroundings, found);
+            goal::read(&table, task_type, surroundings, found)
+        }
         None => goal::look_over(&table, found),
     };
     let damping = damping::read(&table, found).or(Damping::default());
@@ -75,6 +82,7 @@ pub(super) fn read(table: &Table, surroundings: Surroundings, found: &mut Mistak
             name: name.as_ref()?.value.clone(),
             kind: kind?,
             frames: frames?,
+            motion: motion?,
             goal: goal?,
             damping: damping?,
         })

@@ -19,17 +19,50 @@ pub(super) const POINT_M: Key = Key::new(
     Holds::Vector(Range::SANE),
     "[0.40, -0.25, -0.33]",
 );
+/// How what is asked for moves. A type says in `moves` which of these it may have; what takes one desired
+/// value has `desired_per_s` besides, and what has any of them `moves_until_s`.
+pub(super) const MOVES: &[&Key] = &[&VELOCITY_M_PER_S];
+pub(super) const TURNS: &[&Key] = &[&ANGULAR_VELOCITY_DEG_PER_S, &ANGULAR_VELOCITY_RAD_PER_S];
+pub(super) const MOVES_AND_TURNS: &[&Key] = &[
+    &VELOCITY_M_PER_S,
+    &ANGULAR_VELOCITY_DEG_PER_S,
+    &ANGULAR_VELOCITY_RAD_PER_S,
+];
+
 pub(super) const VELOCITY_M_PER_S: Key = Key::new(
     "velocity_m_per_s",
     "m/s",
-    "How the point moves; `point_m` is where it is at t = 0",
+    "How the point or target moves, from where it is at t = 0; in the world or in the axes of `relative_to`",
     Holds::Vector(Range::SANE),
     "[0, -0.2, 0]",
+);
+pub(super) const ANGULAR_VELOCITY_DEG_PER_S: Key = Key::new(
+    "angular_velocity_deg_per_s",
+    "deg/s",
+    "How the direction or the desired orientation turns, from what it is at t = 0: about this axis of the \
+     world or of `relative_to`, by its length",
+    Holds::Vector(Range::SANE),
+    "[0, 0, 20]",
+);
+pub(super) const ANGULAR_VELOCITY_RAD_PER_S: Key = Key::new(
+    "angular_velocity_rad_per_s",
+    "rad/s",
+    "The same in radians",
+    Holds::Vector(Range::SANE),
+    "[0, 0, 0.35]",
+);
+pub(super) const DESIRED_PER_S: Key = Key::new(
+    "desired_per_s",
+    "",
+    "Equality task: how fast the desired value moves, in the task's unit per second; `desired` is what it \
+     is at t = 0",
+    Holds::Number(Range::SANE),
+    "0.05",
 );
 pub(super) const MOVES_UNTIL_S: Key = Key::new(
     "moves_until_s",
     "s",
-    "When the point comes to rest; without it, it never does",
+    "When what moves comes to rest; without it, it never does",
     Holds::Number(keys::DURATION),
     "4",
 );

@@ -1,12 +1,13 @@
 //! The types of task that a scenario may name: what each measures, the keys it needs, and how it
 //! is read; those that concern orientations stand in `orientation_types.rs`, those that concern the
-//! arm as a whole in `arm_types.rs`. To add a type, add it here, to `TaskKind` and to `written.rs`.
+//! arm as a whole in `arm_types.rs`. To add a type, add a constant and its place in the list [`ALL`]: what
+//! it has beyond [`PLAIN`]; then the compiler asks for it in `written.rs` and `measured.rs`. Reader, schema
+//! and messages follow, and so do frames, goals, motion and damping.
 
 use super::config::TaskKind;
 use super::key::Key;
 use super::keys;
 use super::mistake::Mistakes;
-use super::motion;
 use super::robots::RobotFacts;
 use super::table::Table;
 use super::{arm_types, orientation_types};
@@ -20,10 +21,14 @@ pub(super) struct TaskType {
     pub(super) about: &'static str,
     /// The keys that it needs besides name, type and goal.
     pub(super) keys: &'static [&'static Key],
-    /// The keys that it may have besides, each with the key that it needs beside it.
-    pub(super) optional: &'static [(&'static Key, Option<&'static Key>)],
+    /// The keys that it may have besides.
+    pub(super) optional: &'static [&'static Key],
+    /// The keys that say what is measured, and as who sees it.
+    pub(super) frames: &'static [&'static Key],
     /// The keys of which it needs one, and cannot have two.
     pub(super) one_of: &'static [&'static Key],
+    /// The keys that say how what it measures against moves.
+    pub(super) moves: &'static [&'static Key],
     /// What can be asked of it.
     pub(super) goal: GoalShape,
     /// Reads what it measures.
@@ -60,6 +65,19 @@ impl TaskType {
         }
     }
 
+    /// The keys that say how fast something of it moves.
+    pub(super) fn speed_keys(&self) -> Vec<&'static Key> {
+        let desired = matches!(self.goal, GoalShape::Scalar(..)).then_some(&keys::DESIRED_PER_S);
+        self.moves.iter().copied().chain(desired).collect()
+    }
+
+    /// Those, and the key that says when it comes to rest.
+    fn motion_keys(&self) -> impl Iterator<Item = &'static Key> + Clone + use<> {
+        let speeds = self.speed_keys();
+        let until = (!speeds.is_empty()).then_some(&keys::MOVES_UNTIL_S);
+        speeds.into_iter().chain(until)
+    }
+
     /// Every key that it may have.
     pub(super) fn all_keys(&self) -> impl Iterator<Item = &'static Key> + Clone {
         keys::TASK_KEYS
@@ -67,70 +85,65 @@ impl TaskType {
             .chain(self.keys)
             .chain(self.one_of)
             .chain(self.goal_keys())
+            .chain(self.optional)
+            .chain(self.frames)
             .copied()
-            .chain(self.optional.iter().map(|(key, _)| *key))
+            .chain(self.motion_keys())
     }
 }
 
 pub(super) const ANY: GoalShape = GoalShape::Scalar(f64::NEG_INFINITY, f64::INFINITY);
 
-/// What every type may have that measures a frame.
-pub(super) const OF_FRAME: &[(&Key, Option<&Key>)] =
-    &[(&keys::FRAME, None), (&keys::RELATIVE_TO, None)];
-
-/// What a type may have that measures a frame against a point that may move.
-pub(super) const OF_FRAME_AND_MOVING_POINT: &[(&Key, Option<&Key>)] = &[
-    (&keys::FRAME, None),
-    (&keys::RELATIVE_TO, None),
-    (&keys::VELOCITY_M_PER_S, None),
-    (&keys::MOVES_UNTIL_S, Some(&keys::VELOCITY_M_PER_S)),
-];
+/// What a type is that says nothing else: a value of any size of a frame, without keys of its own.
+pub(super) const PLAIN: TaskType = TaskType {
+    name: "",
+    about: "",
+    keys: &[],
+    optional: &[],
+    frames: &[&keys::FRAME, &keys::RELATIVE_TO],
+    one_of: &[],
+    moves: &[],
+    goal: ANY,
+    read: |_, _, _| None,
+};
 
 /// Every type of task.
 pub(super) const ALL: &[TaskType] = &[
     TaskType {
         name: "position",
         about: "Position of the tool, or of `frame` [m]; cannot be a set",
-        keys: &[],
-        optional: OF_FRAME,
-        one_of: &[],
+        moves: keys::MOVES,
         goal: GoalShape::Point,
         read: |_, _, _| Some(TaskKind::Position),
+        ..PLAIN
     },
     TaskType {
         name: "coordinate",
         about: "One coordinate of the position [m]",
         keys: &[&keys::AXIS],
-        optional: OF_FRAME,
-        one_of: &[],
-        goal: ANY,
         read: |table, _, found| {
             let axis = table.choice(&keys::AXIS, found).required(table, found)?;
             Some(TaskKind::Coordinate { axis })
         },
+        ..PLAIN
     },
     TaskType {
         name: "distance",
         about: "Distance of the tool to a point [m], which may move",
         keys: &[&keys::POINT_M],
-        optional: OF_FRAME_AND_MOVING_POINT,
-        one_of: &[],
+        moves: keys::MOVES,
         goal: GoalShape::Scalar(0.0, f64::INFINITY),
         read: |table, _, found| {
-            let point_m = table.vector(&keys::POINT_M, found).required(table, found);
-            let motion = motion::read(table, found).map(Some).or(None);
-            Some(TaskKind::Distance {
-                point_m: point_m?,
-                motion: motion?,
-            })
+            let point_m = table.vector(&keys::POINT_M, found).required(table, found)?;
+            Some(TaskKind::Distance { point_m })
         },
+        ..PLAIN
     },
     TaskType {
         name: "field_of_view",
         about: "Norm of (direction - tool z axis) [-]: 2 sin(angle / 2), from 0 to 2",
         keys: &[&keys::DIRECTION],
-        optional: OF_FRAME,
-        one_of: &[],
+        moves: keys::TURNS,
         goal: GoalShape::Scalar(0.0, 2.0),
         read: |table, _, found| {
             let direction = table
@@ -138,20 +151,20 @@ pub(super) const ALL: &[TaskType] = &[
                 .required(table, found)?;
             Some(TaskKind::FieldOfView { direction })
         },
+        ..PLAIN
     },
     TaskType {
         name: "joint",
         about: "Position of one joint [rad], or [m] if it slides",
         keys: &[&keys::JOINT],
-        optional: &[],
-        one_of: &[],
-        goal: ANY,
+        frames: &[],
         read: |table, robot, found| {
             let joint = table
                 .joint(&keys::JOINT, robot, found)
                 .required(table, found)?;
             Some(TaskKind::Joint { joint })
         },
+        ..PLAIN
     },
     orientation_types::ORIENTATION,
     orientation_types::ORIENTATION_ANGLE,
@@ -162,13 +175,7 @@ pub(super) const ALL: &[TaskType] = &[
         name: "plane",
         about: "Signed distance to a plane [m], positive on the side of its normal",
         keys: &[&keys::NORMAL],
-        optional: &[
-            (&keys::OFFSET_M, None),
-            (&keys::FRAME, None),
-            (&keys::RELATIVE_TO, None),
-        ],
-        one_of: &[],
-        goal: ANY,
+        optional: &[&keys::OFFSET_M],
         read: |table, _, found| {
             let normal = table.direction(&keys::NORMAL, found).required(table, found);
             let offset_m = table.number(&keys::OFFSET_M, found).or(0.0);
@@ -177,15 +184,13 @@ pub(super) const ALL: &[TaskType] = &[
                 offset_m: offset_m?,
             })
         },
+        ..PLAIN
     },
     TaskType {
         name: "height",
         about: "Height [m]: z of the position",
-        keys: &[],
-        optional: OF_FRAME,
-        one_of: &[],
-        goal: ANY,
         read: |_, _, _| Some(TaskKind::Height),
+        ..PLAIN
     },
     arm_types::POSTURE,
     arm_types::JOINT_SPEED,

@@ -147,7 +147,7 @@ fn write_collision(collision: &Collision, file: &mut Lines) {
         file.line(keys::NAME.name, &text(&obstacle.name));
         write_geometry(&obstacle.geometry, file);
         file.number(&keys::DISTANCE_M, obstacle.distance_m);
-        for (name, value) in obstacle.motion.iter().flat_map(motion::written) {
+        for (name, value) in motion::written(&obstacle.motion) {
             file.line(name, &value);
         }
     }
@@ -171,7 +171,8 @@ fn write_task(task: &TaskConfig, file: &mut Lines) {
     file.line(keys::NAME.name, &text(&task.name));
     let (type_name, values) = written(&task.kind);
     file.line(keys::TYPE.name, &text(type_name));
-    for (name, value) in values.into_iter().chain(task.frames.written()) {
+    let own = values.into_iter().chain(task.frames.written());
+    for (name, value) in own.chain(motion::written(&task.motion)) {
         file.line(name, &value);
     }
     match &task.goal {

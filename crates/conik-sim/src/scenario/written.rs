@@ -3,7 +3,6 @@
 use super::choice::Choice;
 use super::config::TaskKind;
 use super::keys;
-use super::motion;
 use super::write::{number, text, vector};
 
 /// A key and its value.
@@ -14,7 +13,7 @@ pub(super) fn written(kind: &TaskKind) -> (&'static str, Vec<Line>) {
     match kind {
         TaskKind::Position => ("position", vec![]),
         TaskKind::Coordinate { axis } => ("coordinate", vec![(keys::AXIS.name, text(axis.name()))]),
-        TaskKind::Distance { point_m, motion } => ("distance", moving(point_m, motion.as_ref())),
+        TaskKind::Distance { point_m } => ("distance", vec![point(point_m)]),
         // No task of a file: shapes and obstacles stand for it.
         TaskKind::Shapes(_) => ("shapes", vec![]),
         TaskKind::FieldOfView { direction } => (
@@ -47,7 +46,7 @@ pub(super) fn written(kind: &TaskKind) -> (&'static str, Vec<Line>) {
                 (keys::DIRECTION.name, vector(direction)),
             ],
         ),
-        TaskKind::LookAt { point_m, motion } => ("look_at", moving(point_m, motion.as_ref())),
+        TaskKind::LookAt { point_m } => ("look_at", vec![point(point_m)]),
         TaskKind::Plane { normal, offset_m } => (
             "plane",
             vec![
@@ -96,10 +95,8 @@ pub(super) fn written(kind: &TaskKind) -> (&'static str, Vec<Line>) {
     }
 }
 
-fn moving(point_m: &[f64; 3], motion: Option<&motion::Motion>) -> Vec<Line> {
-    let mut lines = vec![(keys::POINT_M.name, vector(point_m))];
-    lines.extend(motion.into_iter().flat_map(motion::written));
-    lines
+fn point(point_m: &[f64; 3]) -> Line {
+    (keys::POINT_M.name, vector(point_m))
 }
 
 fn quaternion(wxyz: &[f64; 4]) -> Line {

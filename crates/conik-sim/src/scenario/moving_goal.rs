@@ -1,0 +1,74 @@
+//! Whether what moves of a task goes with what is asked of it.
+
+use super::goal::possible;
+use super::key::Key;
+use super::keys;
+use super::mistake::Mistakes;
+use super::motion::Motion;
+use super::read::Surroundings;
+use super::table::Table;
+use super::task_types::{GoalShape, TaskType};
+use super::value::shown;
+
+/// Notes a speed of what the task does not have, and one that takes it out of reach.
+pub(super) fn check(
+    table: &Table,
+    task_type: &TaskType,
+    motion: Option<&Motion>,
+    surroundings: Surroundings,
+    found: &mut Mistakes,
+) {
+    let has = |key: &Key| table.has(key);
+    match task_type.goal {
+        GoalShape::Point if has(&keys::VELOCITY_M_PER_S) && has(&keys::WAYPOINTS_M) => refuse(
+            table,
+            &keys::VELOCITY_M_PER_S,
+            "it says how a target moves, and waypoints stay where they are",
+            "remove it, or give `target_m` in place of `waypoints_m` and `acceptance_m`",
+            found,
+        ),
+        GoalShape::Scalar(..)
+            if has(&keys::DESIRED_PER_S)
+                && !has(&keys::DESIRED)
+                && (has(&keys::MIN) || has(&keys::MAX)) =>
+        {
+            refuse(
+                table,
+                &keys::DESIRED_PER_S,
+                "it says how a desired value moves, and this is a set",
+                "remove it, or give `desired` in place of `min` and `max`",
+                found,
+            );
+        }
+        GoalShape::Scalar(least, most) => {
+            // What is wrong with the value itself is noted where the goal is read.
+            let desired = table.number(&keys::DESIRED, &mut Mistakes::new("")).given();
+            let (Some(desired), Some(motion)) = (desired, motion) else {
+                return;
+            };
+            let until = motion.moves_until_s.or(surroundings.duration_s);
+            let (Some(until_s), Some(_)) = (until, motion.desired_per_s) else {
+                return;
+            };
+            let last = motion.value_at(desired, until_s);
+            let in_reach = least..=most;
+            if in_reach.contains(&desired) && !in_reach.contains(&last) {
+                let what = format!(
+                    "after {} s the desired value is {}, out of reach of a task of this type",
+                    shown(until_s),
+                    shown(last)
+                );
+                let help = format!(
+                    "{}: let it come to rest earlier with `moves_until_s`, or take another speed",
+                    possible((least, most))
+                );
+                refuse(table, &keys::DESIRED_PER_S, &what, &help, found);
+            }
+        }
+        _ => {}
+    }
+}
+
+fn refuse(table: &Table, key: &Key, what: &str, help: &str, found: &mut Mistakes) {
+    found.add(table.span_of(key), table.path_of(key), what, help);
+}
