@@ -131,8 +131,21 @@ pub struct CheckArguments {
     pub scenario: PathBuf,
 }
 
+/// What `conik plot` writes, for its help.
+const PLOT_HELP: &str = "\
+Writes, besides report.html:
+  path.svg     the tool's path among obstacles and waypoints
+  arm.svg      the arm at a few times, with cones of view
+  mode.svg     the mode over time
+  sets.svg     each set over time, with its limits
+  errors.svg   errors of the equality tasks
+  joints.svg   positions and velocities of the joints
+  figure4.svg  path, mode, sets and errors in one
+  cycles.svg   times of the cycles of an arm with a clock of its own";
+
 /// `conik plot`
 #[derive(Debug, Args)]
+#[command(after_help = PLOT_HELP)]
 pub struct PlotArguments {
     /// A folder that `conik run` wrote
     #[arg(value_hint = ValueHint::DirPath)]

@@ -23,6 +23,7 @@ fn the_page_tells_the_run_in_the_papers_order() {
         "Completed",
         "Waypoint 1 reached at 0.8\u{a0}s, waypoint 2 reached at 1.8\u{a0}s.",
         "Path of the tool",
+        "The arm at a few times",
         "Mode over time",
         "Set-based tasks and their limits",
         "Errors of the equality tasks",
@@ -61,8 +62,8 @@ fn the_page_needs_nothing_but_itself() {
 fn pictures_and_tables_are_accessible() {
     let page = reported("access", &Invention::default());
     let pictures = page.matches("<svg ").count();
-    // Path, mode, three sets, one error, cycles, joints.
-    assert_eq!(pictures, 8);
+    // Path, arm, mode, three sets, one error, cycles, joints.
+    assert_eq!(pictures, 9);
     assert_eq!(page.matches("role=\"img\" aria-label=\"").count(), pictures);
     assert_eq!(
         page.matches("<table>").count(),

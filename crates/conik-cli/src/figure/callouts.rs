@@ -79,6 +79,12 @@ pub fn draw(run: &Run, scene: &Scene, view: &View, marks: &mut Marks, placement:
     }
 }
 
+/// Sets a word beside a point.
+pub fn note(at: Point, text: &str, marks: &mut Marks, placement: &mut Placement) {
+    let style = Lettering::new(LABEL, palette::SOFT);
+    label(at, 9.0, text, style, marks, placement);
+}
+
 /// Names a shape on it, if the name is no wider than it is, or else beside it.
 fn name_shape(
     name: &str,
@@ -110,8 +116,7 @@ fn name_shape(
     };
     if let Some(best) = placement.choose(&candidates, &name) {
         let (at, style) = candidates[best];
-        let style = if is_inside { style } else { style.rimmed() };
-        marks.text(at, &name, style);
+        marks.text(at, &name, style.rimmed());
     }
 }
 

@@ -13,6 +13,8 @@ pub struct Placed {
     /// The figure: parts of different figures are of different times, and are not sorted. `None`: it stands
     /// by itself, and is sorted among everything.
     pub figure: Option<usize>,
+    /// Whether it is a translucent hull of parts of its figure: it is painted over all of them.
+    pub is_hull: bool,
 }
 
 /// The solids from back to front. Those of one figure stay together where they can, and earlier figures
@@ -30,7 +32,13 @@ pub fn back_to_front(camera: &Camera, solids: &[Placed]) -> Vec<usize> {
             if !same_time {
                 continue;
             }
-            match solid::is_behind(camera, &first.shape, &second.shape) {
+            let of_one_figure = first.figure.is_some() && first.figure == second.figure;
+            let is_behind = if of_one_figure && first.is_hull != second.is_hull {
+                Some(second.is_hull)
+            } else {
+                solid::is_behind(camera, &first.shape, &second.shape)
+            };
+            match is_behind {
                 Some(true) => {
                     in_front[i].push(j);
                     behind[j] += 1;
@@ -82,10 +90,12 @@ mod tests {
         let ball = |x: f64, z: f64, figure| Placed {
             shape: Sphere::new([x, 0.0, z], 0.1).into(),
             figure,
+            is_hull: false,
         };
         let board = Placed {
             shape: Cuboid::new(Pose::at(Vec3::new(1.0, 0.0, 0.0)), [2.0, 1.0, 0.02]).into(),
             figure: None,
+            is_hull: false,
         };
         let solids = [
             ball(0.3, 0.2, Some(1)),

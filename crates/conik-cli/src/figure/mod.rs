@@ -1,7 +1,7 @@
 //! The figures of a run: the panels of the paper's Figure 4, each as an SVG, from a run folder.
 //!
 //! [`write_all`] is what `conik plot DIR` does. A panel is a [`Picture`](svg::Picture): `path`,
-//! `mode`, `sets`, `errors`, `joints`, `cycles` of a robot, and `figure4` with those of the paper. Colour stands for one thing
+//! `arm` where the robot is known, `mode`, `sets`, `errors`, `joints`, `cycles` of a robot, and `figure4` with those of the paper. Colour stands for one thing
 //! everywhere, the mode. The same run gives the same bytes. How a page is made of them is
 //! [`report`](crate::report).
 
@@ -9,10 +9,13 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
+pub mod arm;
+mod arm_parts;
 pub mod axis;
 mod callouts;
 pub mod camera;
 pub mod chart;
+mod cone;
 pub mod curve;
 pub mod cycles;
 pub mod depth;
@@ -25,6 +28,7 @@ pub mod joints;
 pub mod lettering;
 pub mod markup;
 pub mod mode;
+mod moments;
 pub mod obstacles;
 pub mod palette;
 pub mod path;
@@ -56,9 +60,10 @@ pub fn write_all(dir: &Path) -> Result<Vec<PathBuf>, FigureError> {
         ("joints.svg", joints::panel(&run, WIDTH)),
         ("figure4.svg", figure4::picture(&run)),
     ];
+    let arm = arm::panel(&run, 680.0, 600.0).map(|picture| ("arm.svg", picture));
     let cycles = cycles::panel(&run, WIDTH).map(|picture| ("cycles.svg", picture));
     let mut written = Vec::new();
-    for (name, picture) in pictures.into_iter().chain(cycles) {
+    for (name, picture) in pictures.into_iter().chain(arm).chain(cycles) {
         let path = dir.join(name);
         match fs::write(&path, picture.to_file()) {
             Ok(()) => written.push(path),

@@ -199,7 +199,7 @@ pub(super) fn at_end(run: &Run, point: Vector, motion: &Motion) -> Vector {
 }
 
 /// The colour of the mode that was longest in force among those in which a set was active that `is_meant`.
-fn tint(run: &Run, is_meant: impl Fn(&str) -> bool) -> &'static str {
+pub fn tint(run: &Run, is_meant: impl Fn(&str) -> bool) -> &'static str {
     let mut lasted_s = vec![0.0; run.modes().len()];
     for span in run.spans() {
         lasted_s[span.mode] += span.to_s - span.from_s;

@@ -28,6 +28,9 @@ pub fn draw(run: &Run, scene: &Scene, width: f64, height: f64) -> Picture {
         run,
         scene,
         parts: Vec::new(),
+        cones: Vec::new(),
+        notes: Vec::new(),
+        foot: None,
     };
     let (view, mut placement) = stage.view(view_deg(scene), width, height);
     let mut marks = Marks::default();
@@ -45,6 +48,7 @@ pub fn view_deg(scene: &Scene) -> (f64, f64) {
     let viewpoint = Viewpoint {
         scene,
         figures: &[],
+        last: Vec::new(),
         screens: &[],
     };
     viewpoint.best_deg()

@@ -43,8 +43,10 @@ pub struct Piece {
 /// A point that the tool should reach.
 #[derive(Clone, Debug)]
 pub struct Target {
-    /// The point.
+    /// The point at the end of the run.
     pub point: Vector,
+    /// The point at the start of the run.
+    pub from: Vector,
     /// How near is near enough; 0 if nothing is said of it.
     pub acceptance: f64,
 }
@@ -55,8 +57,8 @@ impl Scene {
         Self::with(run, &[])
     }
 
-    /// The same, large enough for further points.
-    pub fn with(run: &Run, further: &[Vector]) -> Self {
+    /// The same, large enough for the points of the arm, which then stands where else the base is marked.
+    pub fn with(run: &Run, arm: &[Vector]) -> Self {
         let places = &run.summary().settings.scenario.robot.places;
         let is_moved = places.base_position_m.is_some() || places.base_rpy_deg.is_some();
         let mut scene = Self {
@@ -69,7 +71,7 @@ impl Scene {
             high: [0.0; 3],
             step: 1.0,
         };
-        scene.enclose(further);
+        scene.enclose(arm);
         scene
     }
 
@@ -96,7 +98,7 @@ impl Scene {
             .chain(starts.map(Obstacle::at_start))
     }
 
-    fn enclose(&mut self, further: &[Vector]) {
+    fn enclose(&mut self, arm: &[Vector]) {
         let mut low = [f64::INFINITY; 3];
         let mut high = [f64::NEG_INFINITY; 3];
         let mut include = |point: Vector, around: f64| {
@@ -108,7 +110,7 @@ impl Scene {
             }
         };
         let path = self.path.iter().flat_map(|piece| &piece.points);
-        for point in path.chain(further) {
+        for point in path.chain(arm) {
             include(*point, 0.0);
         }
         let [x, y, z] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]].map(Vec3::from);
@@ -123,6 +125,7 @@ impl Scene {
         }
         for target in &self.targets {
             include(target.point, target.acceptance);
+            include(target.from, target.acceptance);
         }
         if low[0] > high[0] {
             (low, high) = ([-0.5; 3], [0.5; 3]);
@@ -131,7 +134,8 @@ impl Scene {
         // A path far away from the base is not made tiny to show both.
         let size = difference(low, high);
         let with_base = [0, 1, 2].map(|k| high[k].max(0.0) - low[k].min(0.0));
-        self.shows_base = dot(with_base, with_base) <= 6.25 * dot(size, size).max(1e-4);
+        self.shows_base =
+            arm.is_empty() && dot(with_base, with_base) <= 6.25 * dot(size, size).max(1e-4);
         let step = nice_step(size.into_iter().fold(0.02, f64::max) / 10.0);
         for k in 0..3 {
             let room = if k == 2 { 0.0 } else { 0.3 * step };
@@ -183,18 +187,21 @@ fn targets_of(run: &Run) -> Vec<Target> {
                 },
             ) => targets.extend(waypoints_m.iter().map(|&point| Target {
                 point,
+                from: point,
                 acceptance: *acceptance_m,
             })),
             (TaskKind::Position, GoalConfig::Desired { desired, .. }) => {
                 if let [x, y, z] = desired[..] {
                     targets.push(Target {
                         point: at_end(run, [x, y, z], &task.motion),
+                        from: [x, y, z],
                         acceptance: 0.0,
                     });
                 }
             }
             (TaskKind::Pose { target_m, .. }, _) => targets.push(Target {
                 point: at_end(run, *target_m, &task.motion),
+                from: *target_m,
                 acceptance: 0.0,
             }),
             _ => {}

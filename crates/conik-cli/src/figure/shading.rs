@@ -37,6 +37,26 @@ impl<'a> Paint<'a> {
         }
     }
 
+    /// A part of the arm.
+    pub fn part(tint: &'a str) -> Self {
+        Self {
+            tint,
+            opacity: 1.0,
+            line: 0.8,
+            dashes: "",
+        }
+    }
+
+    /// A shape on a link, which the link shines through.
+    pub fn shell(tint: &'a str) -> Self {
+        Self {
+            tint,
+            opacity: 0.22,
+            line: 0.7,
+            dashes: "",
+        }
+    }
+
     /// Where something that moves was at the start.
     pub fn past(tint: &'a str) -> Self {
         Self {

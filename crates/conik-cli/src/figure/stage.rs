@@ -1,10 +1,12 @@
 //! The scene painted from back to front: floor and walls, then solids from far to near, each after the parts
 //! of the path that it stands in front of.
 
-use conik::Shape;
+use conik::{Pose, Shape};
 
+use super::axis::range;
 use super::callouts;
 use super::camera::{Camera, Vector, View};
+use super::cone::Cone;
 use super::depth::{Placed, back_to_front};
 use super::floor;
 use super::ink::Stroke;
@@ -16,6 +18,10 @@ use super::shading::{self, Paint};
 use super::solid;
 use super::svg::{Marks, Point};
 use super::wall;
+
+/// Room above and below what is drawn, for labels [px].
+const TOP: f64 = 22.0;
+const BOTTOM: f64 = 46.0;
 
 /// A solid of a figure that stands in the scene.
 #[derive(Clone, Copy, Debug)]
@@ -39,17 +45,31 @@ pub struct Stage<'a> {
     pub scene: &'a Scene,
     /// What stands in it besides.
     pub parts: Vec<Part>,
+    /// Views of the tool.
+    pub cones: Vec<Cone>,
+    /// Words at points.
+    pub notes: Vec<(Vector, String)>,
+    /// What stands above the floor, and should not seem to float.
+    pub foot: Option<Vector>,
 }
 
 impl Stage<'_> {
+    /// The height that a picture of that width needs, if it is less than `most` [px].
+    pub fn height(&self, view_deg: (f64, f64), width: f64, most: f64) -> f64 {
+        let (view, _) = self.view(view_deg, width, most);
+        let outline = self.outline(&view.camera);
+        let (top, bottom) = range(outline.into_iter().map(|point| view.place(point).1));
+        most.min(bottom - top + TOP + BOTTOM)
+    }
+
     /// The view that fits a picture of that size [px], and the labels that are placed on it.
     pub fn view(&self, view_deg: (f64, f64), width: f64, height: f64) -> (View, Placement) {
         let camera = Camera::at(view_deg.0, view_deg.1);
         let view = View::fitting(
             camera,
             &self.outline(&camera),
-            (58.0, 22.0),
-            (width - 34.0, height - 46.0),
+            (58.0, TOP),
+            (width - 34.0, height - BOTTOM),
         );
         let page = Area {
             at: (2.0, 2.0),
@@ -73,12 +93,37 @@ impl Stage<'_> {
         for it in back {
             wall::draw(it, self.scene, view, marks);
         }
+        self.shadow(view, marks);
         self.trace(view, marks);
         self.paint_solids(&solids, view, marks, placement);
+        for cone in &self.cones {
+            cone.draw(view, marks);
+        }
         for it in front {
             wall::draw(it, self.scene, view, marks);
         }
         callouts::draw(self.run, self.scene, view, marks, placement);
+        for (point, note) in &self.notes {
+            callouts::note(view.place(*point), note, marks, placement);
+        }
+    }
+
+    /// What the parts that are there to stay throw on the floor.
+    fn shadow(&self, view: &View, marks: &mut Marks) {
+        let parts = self.parts.iter().filter(|part| part.hides);
+        marks.open_sheet(0.16);
+        for part in parts {
+            let (x, y) = (Pose::IDENTITY.x_axis, Pose::IDENTITY.y_axis);
+            let rim = solid::rim(&part.placed.shape, x, y).into_iter();
+            let floor = rim.map(|it| view.place([it[0], it[1], self.scene.low[2]]));
+            marks.polygon(&solid::hull(floor.collect()), "#5f6b78", 1.0);
+        }
+        marks.close_sheet();
+        if let Some([x, y, z]) = self.foot {
+            let floor = view.place([x, y, self.scene.low[2]]);
+            let dashes = Stroke::dashed("#8e99a6", 1.0, "3 3");
+            marks.line(floor, view.place([x, y, z]), dashes);
+        }
     }
 
     /// Obstacles, where those that move were, and the parts.
@@ -90,6 +135,7 @@ impl Stage<'_> {
                     placed: Placed {
                         shape,
                         figure: None,
+                        is_hull: false,
                     },
                     paint,
                     sheet: 1.0,
@@ -175,6 +221,9 @@ impl Stage<'_> {
             let from = [0, 1, 2].map(|k| to[k] - moved[k]);
             arrow(view.place(from), view.place(to), marks);
         }
+        for target in &self.scene.targets {
+            arrow(view.place(target.from), view.place(target.point), marks);
+        }
         for sight in &self.scene.around.sights {
             let (from, to) = (view.place(sight.from), view.place(sight.to));
             arrow(from, to, marks);
@@ -198,9 +247,11 @@ impl Stage<'_> {
         let floor = [low[0], high[0]].map(|x| [low[1], high[1]].map(|y| [x, y, low[2]]));
         let mut points: Vec<Vector> = floor.concat();
         points.extend(scene.path.iter().flat_map(|piece| &piece.points));
-        points.extend(scene.targets.iter().map(|target| target.point));
+        let targets = scene.targets.iter();
+        points.extend(targets.flat_map(|target| [target.from, target.point]));
         let sights = scene.around.sights.iter();
         points.extend(sights.flat_map(|sight| [sight.from, sight.to]));
+        points.extend(self.cones.iter().flat_map(Cone::rim));
         let [right, up] = camera.frame().map(Into::into);
         let parts = self.parts.iter().map(|part| part.placed.shape);
         for shape in scene.shapes().chain(parts) {

@@ -13,6 +13,8 @@ pub struct Viewpoint<'a> {
     pub scene: &'a Scene,
     /// Figures that should be spread out on paper.
     pub figures: &'a [Vec<Vector>],
+    /// Those of them that obstacles should not hide.
+    pub last: Vec<Vec<Vector>>,
     /// What else hides the path.
     pub screens: &'a [Shape],
 }
@@ -65,7 +67,24 @@ impl Viewpoint<'_> {
             on_paper / whole
         };
         let spread: f64 = self.figures.iter().map(spread).sum();
-        clear * (path + 1.5 * spread / self.figures.len() as f64)
+        clear * (path + 1.5 * spread / self.figures.len() as f64 + 1.5 * self.unhidden(camera))
+    }
+
+    /// The part of the last figures that no obstacle hides.
+    fn unhidden(&self, camera: &Camera) -> f64 {
+        let (mut seen, mut whole) = (0.0, 1e-9);
+        for pair in self.last.iter().flat_map(|line| line.windows(2)) {
+            let length = lengths(camera, pair[0], pair[1]).1;
+            for part in [0.1, 0.3, 0.5, 0.7, 0.9] {
+                let point = [0, 1, 2].map(|k| pair[0][k] + part * (pair[1][k] - pair[0][k]));
+                let mut standing = self.scene.standing();
+                whole += length;
+                if !standing.any(|it| solid::hides(&it.shape, camera, point)) {
+                    seen += length;
+                }
+            }
+        }
+        seen / whole
     }
 
     /// Whether the base is in the background, and no obstacle in front of it.

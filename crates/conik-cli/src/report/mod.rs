@@ -11,7 +11,7 @@ use std::path::{Path, PathBuf};
 use crate::figure::chart::Layout;
 use crate::figure::markup::Escaped;
 use crate::figure::svg::Picture;
-use crate::figure::{Run, RunError, errors, joints, mode, path, sets};
+use crate::figure::{Run, RunError, arm, errors, joints, mode, path, sets};
 
 mod cycles;
 pub mod monitors;
@@ -23,6 +23,9 @@ mod verdict;
 
 /// Width and height of the picture of the path [px], still readable on a phone.
 const PATH: (f64, f64) = (520.0, 500.0);
+
+/// Width and greatest height of the picture of the arm [px].
+const ARM: (f64, f64) = (620.0, 560.0);
 
 const STYLE: &str = include_str!("style.css");
 
@@ -84,14 +87,19 @@ fn figure_four(run: &Run) -> String {
     let sets: String = set_charts.map(|chart| card(&chart)).collect();
     let errors: String = error_charts.map(|chart| card(&chart)).collect();
     let path = path::panel(run, PATH.0, PATH.1);
+    let arm = arm::panel(run, ARM.0, ARM.1).map(|picture| {
+        let picture = scrolling_card(&picture);
+        format!("<h3>The arm at a few times</h3>\n{picture}")
+    });
     format!(
         "<section>\n<h2>What happened</h2>\n\
          <h3>Path of the tool</h3>\n<figure class=\"card\" id=\"path\">{}{}</figure>\n\
-         <h3>Mode over time</h3>\n{}\
+         {}<h3>Mode over time</h3>\n{}\
          <h3>Set-based tasks and their limits</h3>\n{}\
          <h3>Errors of the equality tasks</h3>\n{}</section>\n",
         path.to_html(),
         rotation::scene(run, PATH.0, PATH.1),
+        arm.unwrap_or_default(),
         scrolling_card(&mode::panel(run, 680.0)),
         cards(&sets, "This run has no set-based task."),
         cards(&errors, "This run has no equality task."),

@@ -198,6 +198,7 @@
       const [x, y] = place(p);
       things += `<circle cx="${x}" cy="${y}" r="${r * scale}" fill="none" stroke="#57606a" stroke-dasharray="6 4"/>`;
     }
+    for (const [to, , from] of scene.targets) things += way(from, to);
     for (const [from, to] of scene.sights) {
       const [x, y] = place(to);
       things += way(from, to) + `<path d="M${x - 7} ${y}h14M${x} ${y - 7}v14" stroke="#1f2328"/>`;

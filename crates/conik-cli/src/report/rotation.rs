@@ -51,7 +51,10 @@ pub fn scene(run: &Run, width: f64, height: f64) -> String {
     let targets: Vec<String> = scene
         .targets
         .iter()
-        .map(|target| format!("[{},{:.5}]", vector(&target.point), target.acceptance))
+        .map(|target| {
+            let (to, from) = (vector(&target.point), vector(&target.from));
+            format!("[{to},{:.5},{from}]", target.acceptance)
+        })
         .collect();
     let mut data = String::new();
     // Writing to a string cannot fail. Numbers and colours only: nothing here needs escaping.

@@ -91,7 +91,10 @@ fn plot_draws_the_figures_and_the_report_again() {
         said.contains("o/figure4.svg\n") && said.contains("o/report.html\n"),
         "{said}"
     );
+    let help = done(&folder, "plot --help");
     for path in said.lines() {
+        let file = path.strip_prefix("o/").unwrap();
+        assert!(help.contains(file), "{file} is not in the help");
         assert!(fs::metadata(folder.join(path)).unwrap().len() > 0, "{path}");
     }
     assert_eq!(done(&folder, "plot o --quiet"), "");

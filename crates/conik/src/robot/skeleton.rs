@@ -13,6 +13,8 @@ pub struct PlacedJoint {
     pub carried_by: Option<usize>,
     /// How it moves.
     pub kind: JointKind,
+    /// Index of the joint of the robot that it is, or that it follows.
+    pub driven_by: usize,
     /// Its frame, which does not move with it: it turns about, or slides along, the z axis [m].
     pub frame: Pose,
     /// The same frame, moved.
@@ -50,6 +52,7 @@ impl Robot {
             joints.push(PlacedJoint {
                 carried_by,
                 kind: body.kind,
+                driven_by: body.drive.joint,
                 frame,
                 moved,
                 body: moved * body.joint_from_body,
