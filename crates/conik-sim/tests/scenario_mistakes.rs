@@ -435,3 +435,68 @@ fn a_thousand_mistakes_print_a_page() {
     assert!(errors.more() > 900);
     assert!(errors.to_string().len() < 20_000);
 }
+
+/// What is put before the task and into it, and what the message must contain.
+const UNFIT: &[(&str, &str, &[&str])] = &[
+    (
+        "",
+        "frame = \"tool0\"\nrelative_to = \"tool0\"",
+        &[
+            "line 6, column 1: task[1] \"p\": no joint is between",
+            "change the links",
+        ],
+    ),
+    (
+        "",
+        "frame = \"base_link\"",
+        &["line 6, column 1: task[1] \"p\": no joint is between"],
+    ),
+    (
+        "[[shape]]\nname = \"limit\"\nlink = \"tool0\"\ntype = \"sphere\"\ncenter_m = [0, 0, 0]\n\
+         radius_m = 0.1\n[[obstacle]]\nname = \"elbow_joint\"\ntype = \"sphere\"\n\
+         center_m = [9, 9, 9]\nradius_m = 1\ndistance_m = 0.1\n",
+        "",
+        &[
+            "shape: \"limit/elbow_joint\" would be the name",
+            "another name",
+        ],
+    ),
+    (
+        "",
+        "frame = \"tool\"",
+        &["no link \"tool\"", "leave `frame` out"],
+    ),
+    (
+        "",
+        "relative_to = \"world\"",
+        &["no link \"world\"", "leave `relative_to` out"],
+    ),
+];
+
+fn fitted(robot: &str, before: &str, task: &str) -> String {
+    format!(
+        "[robot]\nmodel = \"ur5e\"\nq0_deg = [0, -90, 90, 0, 90, 0]\n{robot}\n{before}\n[[task]]\n\
+         name = \"p\"\ntype = \"position\"\ntarget_m = [0.4, 0.1, 0.3]\ngain_per_s = 1\n{task}\n"
+    )
+}
+
+#[test]
+fn what_does_not_fit_the_robot_is_named_with_its_place() {
+    Scenario::from_toml(&fitted("", "", "")).expect("it is right");
+    for (before, task, says) in UNFIT {
+        let errors = Scenario::from_toml(&fitted("", before, task)).expect_err("it is wrong");
+        let message = errors.to_string();
+        for part in *says {
+            assert!(message.contains(part), "{part}: {message}");
+        }
+    }
+}
+
+#[test]
+fn the_tip_of_a_tool_with_an_offset_is_a_link() {
+    let offset = "tool_offset_m = [0, 0, 0.1]";
+    let seen_from_it = "frame = \"link_2\"\nrelative_to = \"tool\"";
+    let scenario = Scenario::from_toml(&fitted(offset, "", seen_from_it)).expect("it is right");
+    Experiment::new(&scenario).expect("it can be run");
+    Scenario::from_toml(&fitted("", "", seen_from_it)).expect_err("there is no tip");
+}

@@ -232,11 +232,11 @@ fn mistakes_are_told_with_the_file_that_they_are_in() {
 
 #[test]
 fn a_joint_that_would_break_the_log_is_refused() {
-    let message = refusal("comma", &TORSO.replace("reach out", "reach, out"), SCENARIO);
-    assert!(
-        message.contains("\"reach, out\" cannot be named in the log"),
-        "{message}"
-    );
+    for name in ["reach, out", "reach\u{202e}out", "reach+out"] {
+        let message = refusal("comma", &TORSO.replace("reach out", name), SCENARIO);
+        let says = format!("{name:?} cannot be named in the log");
+        assert!(message.contains(&says), "{says}: {message}");
+    }
 }
 
 #[test]

@@ -79,6 +79,16 @@ impl Table<'_> {
             }
             let (what, help) = unknown_name(name, links.iter().map(String::as_str));
             let what = what.replace("unknown name", "the robot has no link");
+            let help = match (key.name, name) {
+                ("frame", "tool") => {
+                    "leave `frame` out: what is measured is the tool then".to_owned()
+                }
+                ("relative_to", "world") => {
+                    "leave `relative_to` out: what is measured is seen from the world then"
+                        .to_owned()
+                }
+                _ => help,
+            };
             found.add(value.span(), &*value.path, what, help);
             None
         })

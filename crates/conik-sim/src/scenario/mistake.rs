@@ -131,6 +131,11 @@ impl<'t> Mistakes<'t> {
         });
     }
 
+    /// Nothing was found wrong so far.
+    pub(super) fn is_empty(&self) -> bool {
+        self.kept.is_empty()
+    }
+
     /// Further mistakes are only counted: work that makes a better message is wasted.
     pub(super) fn is_full(&self) -> bool {
         self.kept.len() >= MOST_KEPT

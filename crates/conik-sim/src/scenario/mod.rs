@@ -16,6 +16,7 @@ mod config;
 mod control;
 mod damping;
 mod direction;
+mod fit;
 mod frames;
 mod geometry;
 mod goal;

@@ -97,6 +97,18 @@ pub(super) fn read(table: &Table, found: &mut Mistakes) -> Option<Placed<String>
 pub(super) fn check_free(tasks: &[ReadTask], sets: &[TaskConfig], found: &mut Mistakes) {
     let mut taken: HashSet<&str> = HashSet::new();
     for set in sets {
+        if set.name.starts_with(LIMIT) {
+            found.add(
+                0..0,
+                "shape",
+                format!(
+                    "{} would be the name of a pair of shapes, and such names belong to the joints' \
+                     position limits",
+                    quoted(&set.name)
+                ),
+                "give the shape another name than `limit`",
+            );
+        }
         // Such as `a/b` and `c` with `a` and `b/c`.
         if !taken.insert(&set.name) {
             found.add(

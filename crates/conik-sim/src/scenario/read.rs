@@ -5,6 +5,7 @@ use std::path::Path;
 use super::collision;
 use super::config::{LimitsConfig, Scenario};
 use super::control::{self, ReadControl};
+use super::fit;
 use super::hierarchy;
 use super::keys;
 use super::mistake::{Mistakes, ScenarioErrors};
@@ -103,8 +104,15 @@ fn read_file(file: &Table, folder: &Path, found: &mut Mistakes) -> Option<Scenar
         _ => Vec::new(),
     };
 
+    // The tip of a tool with an offset is a link too.
+    let placed = facts
+        .zip(limited.as_ref())
+        .map(|(facts, robot)| RobotFacts {
+            link_names: robot.link_names().map(str::to_owned).collect(),
+            ..facts.clone()
+        });
     let surroundings = Surroundings {
-        robot: facts,
+        robot: placed.as_ref().or(facts),
         rate_hz: control.rate_hz,
         duration_s: control.whole.as_ref().map(|control| control.duration_s),
     };
@@ -128,7 +136,8 @@ fn read_file(file: &Table, folder: &Path, found: &mut Mistakes) -> Option<Scenar
         hierarchy::check(tasks, limits + sets.len(), &control.groups, found);
     }
 
-    Some(Scenario {
+    let places = fit::Places::of(tasks.as_deref().unwrap_or_default());
+    let scenario = Scenario {
         title: title?,
         robot: robot?,
         control: control.whole?,
@@ -138,5 +147,9 @@ fn read_file(file: &Table, folder: &Path, found: &mut Mistakes) -> Option<Scenar
             .into_iter()
             .map(|task| task.config)
             .collect::<Option<_>>()?,
-    })
+    };
+    if found.is_empty() {
+        fit::check(&scenario, &places, file, found);
+    }
+    Some(scenario)
 }

@@ -269,7 +269,11 @@ fn read_urdf(
     match config.read() {
         Ok(described) => {
             // The log parts its columns at `,` and joins the names of sets by `+`.
-            let is_bad = |c: char| matches!(c, ',' | '+' | '"') || c.is_control();
+            // What writes from right to left on demand would turn lines of messages round.
+            let is_bad = |c: char| {
+                matches!(c, ',' | '+' | '"' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
+                    || c.is_control()
+            };
             let mut names = described.robot.joint_names();
             if let Some(name) = names.find(|name| name.contains(is_bad)) {
                 let what = format!("{}: joint {name:?} cannot be named in the log", config.urdf);
