@@ -5,7 +5,8 @@ use serde::{Deserialize, Serialize};
 
 use crate::experiment::ExperimentError;
 use crate::scenario::{
-    Collision, Damping, Frames, Geometry, GoalConfig, LinkShape, Motion, TaskConfig, TaskKind,
+    Collision, Damping, Frames, Geometry, GoalConfig, LinkShape, Motion, Obstacle, TaskConfig,
+    TaskKind,
 };
 
 /// Two shapes that are kept apart.
@@ -44,19 +45,21 @@ impl Collision {
         let links = Links::of(robot);
         let mut tasks = Vec::new();
         for obstacle in &self.obstacles {
+            let Some(distance_m) = obstacle.distance_m else {
+                continue;
+            };
             for shape in &self.shapes {
                 if links.joints_between(&shape.link, None) == 0 {
                     continue;
                 }
-                let pair = ShapePair {
-                    link: shape.link.clone(),
-                    shape: shape.geometry.clone(),
-                    other_link: None,
-                    other: obstacle.geometry.clone(),
-                };
                 tasks.push(TaskConfig {
                     motion: obstacle.motion,
-                    ..kept_apart(&shape.name, &obstacle.name, pair, obstacle.distance_m)
+                    ..kept_apart(
+                        &shape.name,
+                        &obstacle.name,
+                        with_obstacle(shape, obstacle),
+                        distance_m,
+                    )
                 });
             }
         }
@@ -86,7 +89,18 @@ impl Collision {
     }
 }
 
-fn on_links(shape: &LinkShape, other: &LinkShape) -> ShapePair {
+/// A shape on a link and one in the world.
+pub(crate) fn with_obstacle(shape: &LinkShape, obstacle: &Obstacle) -> ShapePair {
+    ShapePair {
+        link: shape.link.clone(),
+        shape: shape.geometry.clone(),
+        other_link: None,
+        other: obstacle.geometry.clone(),
+    }
+}
+
+/// Two shapes on links.
+pub(crate) fn on_links(shape: &LinkShape, other: &LinkShape) -> ShapePair {
     ShapePair {
         link: shape.link.clone(),
         shape: shape.geometry.clone(),
@@ -112,13 +126,13 @@ fn kept_apart(name: &str, other: &str, pair: ShapePair, distance_m: f64) -> Task
 }
 
 /// The links of a robot, and what is between them.
-struct Links<'a> {
+pub(crate) struct Links<'a> {
     robot: &'a Robot,
     kinematics: Kinematics,
 }
 
 impl<'a> Links<'a> {
-    fn of(robot: &'a Robot) -> Self {
+    pub(crate) fn of(robot: &'a Robot) -> Self {
         Self {
             robot,
             kinematics: Kinematics::new(robot),
@@ -126,7 +140,7 @@ impl<'a> Links<'a> {
     }
 
     /// How many joints are between a link and another, or the world; none if there is no such link.
-    fn joints_between(&self, link: &str, other: Option<&str>) -> usize {
+    pub(crate) fn joints_between(&self, link: &str, other: Option<&str>) -> usize {
         let seen_from = match other {
             None => Some(Frame::World),
             Some(other) => self.robot.frame(other),

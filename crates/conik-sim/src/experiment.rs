@@ -8,6 +8,7 @@ use conik::{
 use crate::joint_limits::limited_robot;
 use crate::measured::add_task;
 use crate::mover::Mover;
+use crate::named_shapes::NoPair;
 use crate::scenario::{
     Border, Control, Damping, DampingRule, DescriptionError, GoalConfig, ModeRule, Recursion,
     Scenario,
@@ -55,6 +56,9 @@ pub enum ExperimentError {
     /// A task names a link that the robot does not have.
     #[error("the robot has no link `{0}`")]
     UnknownLink(String),
+    /// A task names shapes between which it can measure no distance.
+    #[error("task `{0}`: {1}")]
+    Shapes(String, NoPair),
     /// Waypoints without points.
     #[error("task `{0}` has no waypoints")]
     NoWaypoints(String),
@@ -67,8 +71,12 @@ impl Experiment {
         let mut stack = Stack::new(&robot);
         let mut waypoints = None;
         let mut movers = Vec::new();
-        let pairs = scenario.collision.tasks(&robot);
-        for task in pairs.iter().chain(&scenario.tasks) {
+        let mut tasks = scenario.collision.tasks(&robot);
+        for task in &scenario.tasks {
+            let named = scenario.collision.with_shapes(task, &robot);
+            tasks.push(named.map_err(|it| ExperimentError::Shapes(task.name.clone(), it))?);
+        }
+        for task in &tasks {
             let id = add_task(&mut stack, &robot, task)?;
             movers.extend(Mover::of(id, task));
             stack.setpoints().set_damping(id, damping(task.damping))?;

@@ -13,7 +13,7 @@ pub const LIMIT: &str = "limit/";
 impl Scenario {
     /// Every task that the controller has, the most important first: the sets that keep the joints'
     /// position limits and those that keep shapes apart, which no scenario lists, then those of the
-    /// scenario.
+    /// scenario, with the shapes that they name in the place of the names.
     pub fn all_tasks(&self) -> Vec<TaskConfig> {
         let robot = limited_robot(&self.robot).ok();
         let joints = robot.iter().flat_map(Robot::joints).enumerate();
@@ -36,7 +36,12 @@ impl Scenario {
         let pairs = robot.iter().flat_map(|robot| self.collision.tasks(robot));
         limits
             .chain(pairs)
-            .chain(self.tasks.iter().cloned())
+            .chain(self.tasks.iter().map(|task| {
+                let named = robot
+                    .as_ref()
+                    .map(|it| self.collision.with_shapes(task, it));
+                named.and_then(Result::ok).unwrap_or_else(|| task.clone())
+            }))
             .collect()
     }
 }

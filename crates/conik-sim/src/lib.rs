@@ -19,6 +19,7 @@ pub mod log;
 mod measured;
 pub mod monitors;
 pub mod mover;
+pub mod named_shapes;
 pub mod promise;
 pub mod record;
 pub mod run;

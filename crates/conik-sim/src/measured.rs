@@ -7,6 +7,7 @@ use conik::{
 };
 
 use crate::experiment::ExperimentError;
+use crate::named_shapes::NoPair;
 use crate::scenario::{Axis, GoalConfig, Part, TaskConfig, TaskKind};
 
 /// Adds the task below all others.
@@ -26,6 +27,7 @@ pub(crate) fn add_task(
     let from = from.map_or(Ok(Frame::World), link)?;
     match config.kind {
         TaskKind::Shapes(ref pair) => add(stack, config, pair.task(robot)?),
+        TaskKind::ShapeDistance { ref shapes } => Err(without_shapes(config, shapes)),
         TaskKind::Position => add(stack, config, Position::of(frame).relative_to(from)),
         TaskKind::Coordinate { axis } => {
             let axis = match axis {
@@ -66,11 +68,8 @@ pub(crate) fn add_task(
                 origin: target_m.into(),
                 ..Pose::from_quaternion_wxyz(desired_quaternion_wxyz)
             };
-            add(
-                stack,
-                config,
-                FramePose::of(frame, desired).relative_to(from),
-            )
+            let pose = FramePose::of(frame, desired);
+            add(stack, config, pose.relative_to(from))
         }
         TaskKind::PointingAngle { axis, direction } => {
             let angle = PointingAngle::between(frame, direction).with_axis(axis);
@@ -115,6 +114,11 @@ pub(crate) fn add_task(
             add(stack, config, Elbow::of(arm, direction).relative_to(from))
         }
     }
+}
+
+/// What is added has the shapes themselves in the place of their names.
+fn without_shapes(config: &TaskConfig, names: &[String; 2]) -> ExperimentError {
+    ExperimentError::Shapes(config.name.clone(), NoPair::Unknown(names[0].clone()))
 }
 
 /// Joints are counted from 1 in scenarios; 0 is refused by the stack as any other that the robot does not

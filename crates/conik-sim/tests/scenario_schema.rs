@@ -251,7 +251,7 @@ fn reader_and_schema_know_the_same_keys() {
     }
     let types = &schema["properties"]["task"]["items"]["oneOf"];
     let types = types.as_array().expect("a list of types");
-    assert_eq!(types.len(), 17);
+    assert_eq!(types.len(), 18);
     for task_type in types {
         let name = &task_type["properties"]["type"]["const"];
         let text = format!("[[task]]\ntype = {name}\nxyzzyxyzzy = 1");

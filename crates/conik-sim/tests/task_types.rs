@@ -32,6 +32,7 @@ const TYPES: &[(&str, &str)] = &[
     ),
     ("plane", "normal = [0, -1, 3]\noffset_m = -0.5\nmin = -1"),
     ("height", "min = -1"),
+    ("shape_distance", "shapes = [\"hand\", \"post\"]\nmin = 0"),
     (
         "posture",
         "joints = [\"elbow_joint\", 1]\ndesired_deg = [90, 10]\ngain_per_s = 1",
@@ -86,11 +87,28 @@ const MOVING: &[(&str, &str)] = &[
     ),
 ];
 
-const OF_JOINTS: &[&str] = &["joint", "posture", "joint_speed"];
+/// They measure no frame.
+const WITHOUT_FRAME: &[&str] = &["joint", "posture", "joint_speed", "shape_distance"];
+
+/// What types that name shapes need beside them.
+const SHAPES: &str = r#"
+[[shape]]
+name = "hand"
+link = "link_6"
+type = "sphere"
+center_m = [0, 0, 0.1]
+radius_m = 0.05
+[[obstacle]]
+name = "post"
+type = "cylinder"
+from_m = [2, 0, 0]
+to_m = [2, 0, 1]
+radius_m = 0.1
+"#;
 
 fn scenario(type_name: &str, keys: &str) -> String {
     format!(
-        "[robot]\nmodel = \"ur5-paper\"\nq0_deg = [-48, -158, -108, -90, -85, 10]\n\n[[task]]\n\
+        "[robot]\nmodel = \"ur5-paper\"\nq0_deg = [-48, -158, -108, -90, -85, 10]\n{SHAPES}\n[[task]]\n\
          name = \"it\"\ntype = \"{type_name}\"\n{keys}\n"
     )
 }
@@ -107,7 +125,7 @@ fn cases() -> Vec<(&'static str, String)> {
         let seen = "relative_to = \"link_1\"";
         if *name == "elbow" {
             cases.push((*name, scenario(name, &format!("{keys}\n{seen}"))));
-        } else if !OF_JOINTS.contains(name) {
+        } else if !WITHOUT_FRAME.contains(name) {
             let frames = format!("{keys}\nframe = \"link_5\"\n{seen}");
             cases.push((*name, scenario(name, &frames)));
         }

@@ -15,6 +15,7 @@ pub fn unit<'a>(run: &'a Run, task: &TaskConfig) -> &'a str {
             | TaskKind::Distance { .. }
             | TaskKind::Plane { .. }
             | TaskKind::Height
+            | TaskKind::ShapeDistance { .. }
             | TaskKind::Shapes(_) => "m",
             TaskKind::Joint { .. }
             | TaskKind::Orientation { .. }
@@ -59,7 +60,7 @@ pub fn quantity(run: &Run, task: &TaskConfig) -> String {
         TaskKind::Coordinate { axis: Axis::Y } => of_frame("y"),
         TaskKind::Coordinate { axis: Axis::Z } => of_frame("z"),
         TaskKind::Distance { .. } => of_other_frame("distance"),
-        TaskKind::Shapes(_) => "distance".to_owned(),
+        TaskKind::ShapeDistance { .. } | TaskKind::Shapes(_) => "distance".to_owned(),
         TaskKind::FieldOfView { .. } => of_other_frame("view error"),
         TaskKind::Orientation { .. } => of_frame("orientation"),
         TaskKind::OrientationAngle { .. } => of_other_frame("angle to turn"),

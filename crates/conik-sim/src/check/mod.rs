@@ -8,7 +8,10 @@ use conik::{Frame, Goal, Kinematics, Stack, TaskId, dependent_tasks};
 use crate::experiment::Experiment;
 use crate::joint_limits::LIMIT;
 use crate::scenario::{Border, Choice, Control, ModeRule, Recursion, Scenario};
-use obstacles::{exclusive_obstacles_that_meet, goals_in_obstacles, obstacles_too_fast, targets};
+use obstacles::{
+    exclusive_obstacles_that_meet, goals_in_obstacles, obstacles_too_fast, targets,
+    unused_obstacles,
+};
 use singular::undamped_at_a_singularity;
 
 /// What a look at a scenario found, before anything moves.
@@ -42,6 +45,7 @@ pub fn find(scenario: &Scenario, experiment: &Experiment) -> Findings {
     undamped_at_a_singularity(scenario, stack, &kinematics, &mut doubts);
     goals_in_obstacles(scenario, &mut doubts);
     obstacles_too_fast(scenario, experiment, &kinematics, &mut doubts);
+    unused_obstacles(scenario, &mut doubts);
     if scenario.control.mode_rule == ModeRule::Cone {
         exclusive_without_effect(&scenario.control, &mut doubts);
     } else {

@@ -144,3 +144,20 @@ pub(super) fn exclusive_obstacles_that_meet(scenario: &Scenario, doubts: &mut Ve
         }
     }
 }
+
+/// An obstacle without a distance that no task measures does nothing.
+pub(super) fn unused_obstacles(scenario: &Scenario, doubts: &mut Vec<String>) {
+    let named = |name: &String| {
+        scenario.tasks.iter().any(
+            |task| matches!(&task.kind, TaskKind::ShapeDistance { shapes } if shapes.contains(name)),
+        )
+    };
+    let obstacles = scenario.collision.obstacles.iter();
+    for obstacle in obstacles.filter(|it| it.distance_m.is_none() && !named(&it.name)) {
+        doubts.push(format!(
+            "nothing keeps away from the obstacle `{}`: it has no `distance_m`, and no task of type \
+             `shape_distance` names it",
+            obstacle.name
+        ));
+    }
+}

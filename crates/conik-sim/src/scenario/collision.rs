@@ -13,8 +13,8 @@ use super::mistake::{Mistakes, quoted};
 use super::motion::{self, Motion};
 use super::names;
 use super::shape_keys::{
-    DISTANCE_M, EXCLUDE, LINK, OBSTACLE, OBSTACLE_KEYS, SELF_COLLISION, SELF_COLLISION_KEYS, SHAPE,
-    SHAPE_KEYS,
+    DISTANCE_M, EXCLUDE, LINK, OBSTACLE, OBSTACLE_DISTANCE_M, OBSTACLE_KEYS, SELF_COLLISION,
+    SELF_COLLISION_KEYS, SHAPE, SHAPE_KEYS,
 };
 use super::table::{Entry, Table, unknown_name};
 
@@ -52,8 +52,10 @@ pub struct Obstacle {
     /// The shape, in the world, where it is at t = 0 if it moves.
     #[serde(flatten)]
     pub geometry: Geometry,
-    /// Least distance between it and the robot's shapes [m].
-    pub distance_m: f64,
+    /// Least distance between it and the robot's shapes [m]; `None`: it keeps nothing away, and tasks may
+    /// measure how far it is.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub distance_m: Option<f64>,
     /// How it moves, if it does.
     #[serde(flatten)]
     pub motion: Motion,
@@ -136,7 +138,8 @@ fn read_obstacle(table: &Table, taken: &mut Vec<String>, found: &mut Mistakes) -
     refuse_unknown_keys(table, OBSTACLE_KEYS, geometry_type, found);
     let name = names::read(table, found)
         .and_then(|name| unique(name.value, name.span, table, taken, found));
-    let distance_m = table.number(&DISTANCE_M, found).required(table, found);
+    let distance_m = table.number(&OBSTACLE_DISTANCE_M, found);
+    let distance_m = distance_m.map(Some).or(None);
     let motion = motion::read(table, keys::MOVES, found);
     let geometry = geometry_type.and_then(|it| geometry::read(table, it, found));
     Some(Obstacle {
@@ -231,9 +234,11 @@ fn check_pairs(collision: &Collision, file: &Table, found: &mut Mistakes) -> boo
         found.add(file.span_of(key), key.name, what, help);
         false
     };
+    let keeps_away = |it: &&Obstacle| it.distance_m.is_some();
+    let kept_away_from = || collision.obstacles.iter().filter(keeps_away);
     if collision.shapes.is_empty() {
         let shapes = "give the links shapes: write `[[shape]]` on a line of its own";
-        if !collision.obstacles.is_empty() {
+        if kept_away_from().next().is_some() {
             return refuse(
                 &OBSTACLE,
                 "no link has a shape that could meet it".into(),
@@ -245,7 +250,7 @@ fn check_pairs(collision: &Collision, file: &Table, found: &mut Mistakes) -> boo
         }
     }
     for (i, shape) in collision.shapes.iter().enumerate() {
-        let others = collision.obstacles.iter();
+        let others = kept_away_from();
         let mut others: Vec<_> = others.map(|it| (&it.name, &it.geometry)).collect();
         if collision.self_collision.is_some() {
             let later = collision.shapes[i + 1..].iter();

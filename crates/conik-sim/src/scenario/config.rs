@@ -243,7 +243,12 @@ pub enum TaskKind {
         /// Where the elbow is at 0, of length 1.
         direction: [f64; 3],
     },
-    /// Distance of two shapes [m]; no type of the file, but what shapes and obstacles in it become.
+    /// Distance of two shapes of the file [m].
+    ShapeDistance {
+        /// Their names.
+        shapes: [String; 2],
+    },
+    /// The same, with the shapes themselves; no type of the file, but what shapes and obstacles in it become.
     Shapes(Box<ShapePair>),
 }
 

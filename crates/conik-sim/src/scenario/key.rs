@@ -97,6 +97,8 @@ pub(super) enum Holds {
     ChoiceOrNumber(fn() -> Vec<(&'static str, &'static str)>, Range),
     /// A name, or a list of one or more.
     NameOrNames,
+    /// Two different names.
+    TwoNames,
     /// Groups of task names.
     NameGroups,
     /// A table of its own, `[name]`.
@@ -136,6 +138,7 @@ impl Holds {
             Self::Joints => "a list of joints, each by its number or its name",
             Self::ChoiceOrNumber(..) => "text in quotes, or a number",
             Self::NameOrNames => "text in quotes, or a list of it",
+            Self::TwoNames => "a list of two names",
             Self::NameGroups => "a list of groups, each a list of task names",
             Self::Table => "a table",
             Self::Tables => "a list of tables",

@@ -40,6 +40,7 @@ mod robot_keys;
 mod robot_source;
 mod robots;
 mod schema;
+mod shape_distance;
 mod shape_keys;
 mod suggest;
 mod syntax;

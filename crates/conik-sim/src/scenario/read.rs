@@ -13,6 +13,7 @@ use super::names;
 use super::robot;
 use super::robot_source;
 use super::robots::RobotFacts;
+use super::shape_distance::Scene;
 use super::syntax;
 use super::table::{Entry, Table};
 use super::task::{self, ReadTask};
@@ -25,6 +26,7 @@ pub(super) struct Surroundings<'r> {
     pub(super) robot: Option<&'r RobotFacts>,
     pub(super) rate_hz: Option<f64>,
     pub(super) duration_s: Option<f64>,
+    pub(super) scene: Option<Scene<'r>>,
 }
 
 impl Scenario {
@@ -115,6 +117,10 @@ fn read_file(file: &Table, folder: &Path, found: &mut Mistakes) -> Option<Scenar
         robot: placed.as_ref().or(facts),
         rate_hz: control.rate_hz,
         duration_s: control.whole.as_ref().map(|control| control.duration_s),
+        scene: collision.as_ref().zip(limited.as_ref()).map(|it| Scene {
+            collision: it.0,
+            robot: it.1,
+        }),
     };
     let tasks: Option<Vec<ReadTask>> =
         file.tables(&keys::TASK, found)

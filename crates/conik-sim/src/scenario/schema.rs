@@ -115,6 +115,13 @@ fn holds(key: &Key) -> Value {
             { "type": "string" },
             { "type": "array", "items": { "type": "string" }, "minItems": 1 },
         ] }),
+        Holds::TwoNames => json!({
+            "type": "array",
+            "items": { "type": "string", "pattern": names::PATTERN },
+            "minItems": 2,
+            "maxItems": 2,
+            "uniqueItems": true,
+        }),
         Holds::NameGroups => json!({
             "type": "array",
             "items": {
@@ -135,7 +142,7 @@ fn holds(key: &Key) -> Value {
             json!({ "type": "array", "items": shape(keys::SHAPE_KEYS, &required) })
         }
         Holds::Tables if key.name == keys::OBSTACLE.name => {
-            let required = [keys::NAME.name, keys::DISTANCE_M.name];
+            let required = [keys::NAME.name];
             json!({ "type": "array", "items": shape(keys::OBSTACLE_KEYS, &required) })
         }
         Holds::Tables => json!({ "type": "array", "items": task(), "minItems": 1 }),

@@ -16,7 +16,7 @@ pub(super) const SHAPE: Key = Key::new(
 pub(super) const OBSTACLE: Key = Key::new(
     "obstacle",
     "",
-    "Shapes in the world: each becomes a high-priority set for every shape on the robot that can \
+    "Shapes in the world: each that has a `distance_m` becomes a high-priority set for every shape on the robot that can \
      meet it, above all tasks of the file, named `SHAPE/OBSTACLE`",
     Holds::Tables,
     "[[obstacle]]",
@@ -33,8 +33,13 @@ pub(super) const SELF_COLLISION: Key = Key::new(
 /// `[[shape]]`: what it may have, but for its type's own keys.
 pub(super) const SHAPE_KEYS: &[&Key] = &[&NAME, &LINK, &TYPE];
 /// `[[obstacle]]`.
-pub(super) const OBSTACLE_KEYS: &[&Key] =
-    &[&NAME, &TYPE, &DISTANCE_M, &VELOCITY_M_PER_S, &MOVES_UNTIL_S];
+pub(super) const OBSTACLE_KEYS: &[&Key] = &[
+    &NAME,
+    &TYPE,
+    &OBSTACLE_DISTANCE_M,
+    &VELOCITY_M_PER_S,
+    &MOVES_UNTIL_S,
+];
 /// `[self_collision]`.
 pub(super) const SELF_COLLISION_KEYS: &[&Key] = &[&DISTANCE_M, &EXCLUDE];
 
@@ -49,6 +54,14 @@ pub(super) const DISTANCE_M: Key = Key::new(
     "distance_m",
     "m",
     "Least distance between the surfaces",
+    Holds::Number(LENGTH),
+    "0.03",
+);
+pub(super) const OBSTACLE_DISTANCE_M: Key = Key::new(
+    "distance_m",
+    "m",
+    "Least distance between the surfaces. Without it, the obstacle keeps nothing away: tasks of type \
+     `shape_distance` can measure it",
     Holds::Number(LENGTH),
     "0.03",
 );
@@ -107,3 +120,12 @@ pub(super) const SPHERE_KEYS: &[&Key] = &[&CENTER_M, &RADIUS_M];
 pub(super) const AXIS_KEYS: &[&Key] = &[&FROM_M, &TO_M, &RADIUS_M];
 pub(super) const BOX_KEYS: &[&Key] = &[&CENTER_M, &SIZE_M];
 pub(super) const HALF_SPACE_KEYS: &[&Key] = &[&POINT_M, &NORMAL];
+
+/// What a task of type `shape_distance` has.
+pub(super) const SHAPES: Key = Key::new(
+    "shapes",
+    "",
+    "The two, by the names of a `[[shape]]` and another one or an `[[obstacle]]`",
+    Holds::TwoNames,
+    r#"["forearm", "post"]"#,
+);

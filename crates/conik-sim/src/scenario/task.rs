@@ -14,6 +14,7 @@ use super::moving_goal;
 use super::names;
 use super::place::Placed;
 use super::read::Surroundings;
+use super::shape_distance;
 use super::suggest::nearest;
 use super::table::{Table, unknown_name};
 use super::task_types::{self, GoalShape, TaskType};
@@ -65,7 +66,9 @@ pub(super) fn read(table: &Table, surroundings: Surroundings, found: &mut Mistak
     let task_type = read_type(&table, found);
     refuse_unknown_keys(&table, task_type, found);
 
-    let kind = task_type.and_then(|it| (it.read)(&table, surroundings.robot, found));
+    let kind = task_type
+        .and_then(|it| (it.read)(&table, surroundings.robot, found))
+        .filter(|kind| shape_distance::check(&table, kind, surroundings.scene, found));
     let frames = frames::read(&table, surroundings.robot, found);
     let speeds = task_type.map_or(Vec::new(), TaskType::speed_keys);
     let motion = motion::read(&table, &speeds, found);

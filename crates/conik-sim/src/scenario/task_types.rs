@@ -10,7 +10,7 @@ use super::keys;
 use super::mistake::Mistakes;
 use super::robots::RobotFacts;
 use super::table::Table;
-use super::{arm_types, orientation_types};
+use super::{arm_types, orientation_types, shape_distance};
 
 /// A type of task.
 #[derive(Debug)]
@@ -192,6 +192,7 @@ pub(super) const ALL: &[TaskType] = &[
         read: |_, _, _| Some(TaskKind::Height),
         ..PLAIN
     },
+    shape_distance::SHAPE_DISTANCE,
     arm_types::POSTURE,
     arm_types::JOINT_SPEED,
     arm_types::MANIPULABILITY,

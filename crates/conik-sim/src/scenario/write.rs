@@ -146,7 +146,9 @@ fn write_collision(collision: &Collision, file: &mut Lines) {
         file.header(&keys::OBSTACLE);
         file.line(keys::NAME.name, &text(&obstacle.name));
         write_geometry(&obstacle.geometry, file);
-        file.number(&keys::DISTANCE_M, obstacle.distance_m);
+        if let Some(distance_m) = obstacle.distance_m {
+            file.number(&keys::DISTANCE_M, distance_m);
+        }
         for (name, value) in motion::written(&obstacle.motion) {
             file.line(name, &value);
         }

@@ -14,6 +14,11 @@ pub(super) fn written(kind: &TaskKind) -> (&'static str, Vec<Line>) {
         TaskKind::Position => ("position", vec![]),
         TaskKind::Coordinate { axis } => ("coordinate", vec![(keys::AXIS.name, text(axis.name()))]),
         TaskKind::Distance { point_m } => ("distance", vec![point(point_m)]),
+        TaskKind::ShapeDistance { shapes } => {
+            let [first, second] = shapes.each_ref().map(|name| text(name));
+            let list = format!("[{first}, {second}]");
+            ("shape_distance", vec![(keys::SHAPES.name, list)])
+        }
         // No task of a file: shapes and obstacles stand for it.
         TaskKind::Shapes(_) => ("shapes", vec![]),
         TaskKind::FieldOfView { direction } => (
