@@ -36,7 +36,7 @@ const LEFT_OUT: &[(&str, &str)] = &[
     ("visual", "shapes to look at are left out"),
     (
         "collision",
-        "shapes of bodies are left out: no distance to them is kept",
+        "shapes of bodies are no part of the robot: distances to them are kept only where that is asked for",
     ),
     (
         "safety_controller",

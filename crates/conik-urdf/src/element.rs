@@ -85,11 +85,12 @@ impl<'d> Element<'d> {
             Some(name) => format!("{} {}", self.tag(), quoted(name)),
             None => self.tag().to_owned(),
         };
-        let carrier = self.node.parent_element().map(Self::new);
-        match carrier {
-            Some(carrier) if carrier.tag() != "robot" => {
-                let name = carrier.node.attribute("name").map(quoted);
-                format!("{own} of {} {}", carrier.tag(), name.unwrap_or_default())
+        // What has no name of its own is best found by that of the link or joint that it is in.
+        let mut carriers = self.node.ancestors().skip(1).map(Self::new);
+        let named = carriers.find_map(|it| Some((it.tag(), it.node.attribute("name")?)));
+        match named {
+            Some((carrier, name)) if carrier != "robot" => {
+                format!("{own} of {carrier} {}", quoted(name))
             }
             _ => own,
         }

@@ -39,6 +39,7 @@ mod narrow;
 mod note;
 mod pose;
 mod role;
+mod shapes;
 mod tree;
 mod unit;
 mod unknown;
@@ -48,6 +49,7 @@ use conik::Robot;
 pub use error::{Place, UrdfError};
 pub use note::Note;
 pub use pose::turned;
+pub use shapes::{DescribedShapes, LinkMesh, LinkShape, shapes};
 
 /// From where to where a description is read.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]

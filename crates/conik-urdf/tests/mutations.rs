@@ -2,7 +2,7 @@
 //! whose links are somewhere, and what is refused says where.
 
 use conik::{Frame, Kinematics, Robot};
-use conik_urdf::{Options, Place, UrdfError, read};
+use conik_urdf::{Options, Place, UrdfError, read, shapes};
 use proptest::prelude::*;
 
 const TEXTS: [&str; 4] = [
@@ -166,6 +166,10 @@ fn survives(text: &str) -> bool {
             }
             Err(error) => assert_says_where(text, &error),
         }
+    }
+    // Whatever the joints are, shapes are read or refused too.
+    if let Err(error) = shapes(text) {
+        assert!(error.to_string().len() < 3000);
     }
     is_read
 }

@@ -71,11 +71,23 @@ pub struct SelfCollision {
     pub exclude: Vec<Vec<String>>,
 }
 
-/// Reads all three; `None` if anything in them is wrong. `robot` is missing if it is unknown.
-pub(super) fn read(file: &Table, robot: Option<&Robot>, found: &mut Mistakes) -> Option<Collision> {
+/// Reads all three; `None` if anything in them is wrong. `of_urdf` reads the shapes that the robot's own
+/// file gives the links, where the scenario gives none. `robot` is missing if it is unknown.
+pub(super) fn read(
+    file: &Table,
+    of_urdf: impl FnOnce(&[LinkShape], &mut Mistakes) -> Option<Vec<LinkShape>>,
+    robot: Option<&Robot>,
+    found: &mut Mistakes,
+) -> Option<Collision> {
     let mut taken = Vec::new();
     let shapes = each(file, &SHAPE, found, |table, found| {
         read_shape(table, robot, &mut taken, found)
+    });
+    let shapes = shapes.and_then(|mut shapes| {
+        let further = of_urdf(&shapes, found)?;
+        taken.extend(further.iter().map(|shape| shape.name.clone()));
+        shapes.extend(further);
+        Some(shapes)
     });
     let count = taken.len();
     let obstacles = each(file, &OBSTACLE, found, |table, found| {
@@ -119,9 +131,7 @@ fn read_shape(
     let name = if table.has(&keys::NAME) {
         names::read(table, found).map(|name| (name.value, name.span))
     } else {
-        // The name of a link may have letters that none of a task has.
-        let allowed = |c: char| if names::is_name_character(c) { c } else { '_' };
-        link.map(|link| (link.chars().map(allowed).collect(), table.header.clone()))
+        link.map(|link| (name_of(link), table.header.clone()))
     };
     let name = name.and_then(|(name, span)| unique(name, span, table, taken, found));
     let link = link.and_then(|link| known_link(link, table, robot, found));
@@ -131,6 +141,12 @@ fn read_shape(
         link: link?.to_owned(),
         geometry: geometry?,
     })
+}
+
+/// What a shape of a link is called: the name of a link may have letters that none of a task has.
+pub(super) fn name_of(link: &str) -> String {
+    let allowed = |c: char| if names::is_name_character(c) { c } else { '_' };
+    link.chars().map(allowed).collect()
 }
 
 fn read_obstacle(table: &Table, taken: &mut Vec<String>, found: &mut Mistakes) -> Option<Obstacle> {

@@ -99,6 +99,48 @@ impl GeometryType {
     }
 }
 
+impl From<Shape> for Geometry {
+    fn from(shape: Shape) -> Self {
+        match shape {
+            Shape::Sphere(sphere) => Self::Sphere {
+                center_m: sphere.center().to_array(),
+                radius_m: sphere.radius(),
+            },
+            Shape::Capsule(capsule) => {
+                let [from_m, to_m] = capsule.ends().map(Vec3::to_array);
+                let radius_m = capsule.radius();
+                Self::Capsule {
+                    from_m,
+                    to_m,
+                    radius_m,
+                }
+            }
+            Shape::Cylinder(cylinder) => {
+                let [from_m, to_m] = cylinder.ends().map(Vec3::to_array);
+                let radius_m = cylinder.radius();
+                Self::Cylinder {
+                    from_m,
+                    to_m,
+                    radius_m,
+                }
+            }
+            Shape::Cuboid(cuboid) => {
+                let pose = cuboid.pose();
+                let rotation = pose.rotation_vector();
+                Self::Box {
+                    center_m: pose.origin.to_array(),
+                    size_m: cuboid.size().to_array(),
+                    rotation_rad: (rotation != Vec3::ZERO).then(|| rotation.to_array()),
+                }
+            }
+            Shape::HalfSpace(half_space) => Self::HalfSpace {
+                point_m: half_space.point().to_array(),
+                normal: half_space.normal().to_array(),
+            },
+        }
+    }
+}
+
 impl Geometry {
     /// The shape that the controller measures.
     pub fn shape(&self) -> Shape {

@@ -51,6 +51,7 @@ mod task_types;
 mod ur;
 mod ur_keys;
 mod urdf_file;
+mod urdf_shapes;
 mod value;
 mod write;
 mod written;

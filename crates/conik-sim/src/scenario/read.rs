@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use super::collision;
+use super::collision::{self, LinkShape};
 use super::config::{LimitsConfig, Scenario};
 use super::control::{self, ReadControl};
 use super::fit;
@@ -18,6 +18,7 @@ use super::syntax;
 use super::table::{Entry, Table};
 use super::task::{self, ReadTask};
 use super::ur;
+use super::urdf_shapes;
 use crate::joint_limits::limited_robot;
 
 /// What a task must know of the tables above it; `None` where they are wrong.
@@ -84,8 +85,11 @@ fn read_file(file: &Table, folder: &Path, found: &mut Mistakes) -> Option<Scenar
         .as_ref()
         .and_then(|table| robot_source::read(table, folder, found));
     let (source, facts) = named.unzip();
+    let urdf = source.clone();
     let facts = facts.as_ref();
-    let robot = robot_table.and_then(|table| robot::read(&table, source, facts, found));
+    let robot = robot_table
+        .as_ref()
+        .and_then(|table| robot::read(table, source, facts, found));
 
     let control = match file.table(&keys::CONTROL, found) {
         Entry::Absent(_) => ReadControl::default(),
@@ -100,7 +104,11 @@ fn read_file(file: &Table, folder: &Path, found: &mut Mistakes) -> Option<Scenar
     };
 
     let limited = robot.as_ref().and_then(|robot| limited_robot(robot).ok());
-    let collision = collision::read(file, limited.as_ref(), found);
+    let of_urdf = |own: &[LinkShape], found: &mut Mistakes| {
+        let table = robot_table.as_ref()?;
+        urdf_shapes::read(table, urdf.as_ref(), own, found)
+    };
+    let collision = collision::read(file, of_urdf, limited.as_ref(), found);
     let sets = match (&collision, &limited) {
         (Some(collision), Some(robot)) => collision.tasks(robot),
         _ => Vec::new(),

@@ -2,6 +2,7 @@
 //! description's.
 
 use super::key::{Holds, Key, Range};
+use super::urdf_shapes::UrdfShapes;
 
 /// 160 turns; more is a mistake of units.
 const START_RAD: f64 = 1_000.0;
@@ -14,6 +15,7 @@ pub(super) const ROBOT_KEYS: &[&Key] = &[
     &URDF,
     &BASE,
     &TOOL,
+    &URDF_SHAPES,
     &BASE_POSITION_M,
     &BASE_RPY_DEG,
     &TOOL_OFFSET_M,
@@ -64,6 +66,13 @@ pub(super) const TOOL: Key = Key::new(
      to the others move too. Only a tree with one end needs none",
     Holds::NameOrNames,
     r#""tool0""#,
+);
+pub(super) const URDF_SHAPES: Key = Key::new(
+    "shapes",
+    "",
+    "Which shapes the URDF file gives the links, besides those of `[[shape]]`",
+    Holds::choice::<UrdfShapes>(),
+    r#""collision""#,
 );
 pub(super) const BASE_POSITION_M: Key = Key::new(
     "base_position_m",

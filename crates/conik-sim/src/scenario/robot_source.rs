@@ -193,7 +193,7 @@ pub(super) fn read(
         }
         (_, true) => read_urdf(table, folder, found),
         (has_model, false) => {
-            for key in [&keys::BASE, &keys::TOOL] {
+            for key in [&keys::BASE, &keys::TOOL, &keys::URDF_SHAPES] {
                 if table.has(key) {
                     let what = format!("`{}` is for robots from URDF files", key.name);
                     mistaken(table, key, &what, "remove it, or give `urdf`", found);
@@ -214,7 +214,7 @@ pub(super) fn read(
     }
 }
 
-fn mistaken(table: &Table, key: &Key, what: &str, help: &str, found: &mut Mistakes) {
+pub(super) fn mistaken(table: &Table, key: &Key, what: &str, help: &str, found: &mut Mistakes) {
     found.add(table.span_of(key), table.path_of(key), what, help);
 }
 
@@ -292,7 +292,7 @@ fn read_urdf(
 }
 
 /// Notes what is wrong in the URDF file, at the key that it concerns.
-fn note(table: &Table, path: &str, error: &UrdfError, found: &mut Mistakes) {
+pub(super) fn note(table: &Table, path: &str, error: &UrdfError, found: &mut Mistakes) {
     let (key, place) = match &error.place {
         Place::Text {
             line,

@@ -1,0 +1,107 @@
+//! The shapes that a URDF file gives the links: `shapes` in `[robot]`.
+
+use super::choice::Choice;
+use super::collision::{LinkShape, name_of};
+use super::geometry::Geometry;
+use super::keys;
+use super::mistake::Mistakes;
+use super::robot_source::{RobotSource, UrdfConfig, mistaken, note};
+use super::table::Table;
+
+/// `robot.shapes`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum UrdfShapes {
+    None,
+    Collision,
+    Primitives,
+}
+
+impl Choice for UrdfShapes {
+    const ALL: &'static [(Self, &'static str)] = &[
+        (Self::None, "none"),
+        (
+            Self::Collision,
+            "those of its `<collision>` elements; a mesh is an error, unless its link has a \
+             `[[shape]]` of its own",
+        ),
+        (
+            Self::Primitives,
+            "those of them that are no meshes: no distance to a mesh is kept",
+        ),
+    ];
+
+    fn name(self) -> &'static str {
+        match self {
+            Self::None => "none",
+            Self::Collision => "collision",
+            Self::Primitives => "primitives",
+        }
+    }
+}
+
+/// The shapes of the links, named as their links, or where that name is taken `LINK.2`, `LINK.3`; `None` if
+/// they cannot be had. A link for which the scenario has shapes of its `own` gets none.
+pub(super) fn read(
+    table: &Table,
+    source: Option<&RobotSource>,
+    own: &[LinkShape],
+    found: &mut Mistakes,
+) -> Option<Vec<LinkShape>> {
+    let wanted = table
+        .choice(&keys::URDF_SHAPES, found)
+        .or(UrdfShapes::None)?;
+    let (Some(RobotSource::Urdf(file)), true) = (source, wanted != UrdfShapes::None) else {
+        return Some(Vec::new());
+    };
+    let has_own = |link: &str| own.iter().any(|shape| shape.link == link);
+    let described = match conik_urdf::shapes(&file.urdf_text) {
+        Ok(described) => described,
+        Err(error) => {
+            note(table, &file.urdf, &error, found);
+            return None;
+        }
+    };
+    let mut meshes = described.meshes.iter().filter(|mesh| !has_own(&mesh.link));
+    if let (UrdfShapes::Collision, Some(mesh)) = (wanted, meshes.next()) {
+        refuse_meshes(table, file, mesh, meshes.count(), found);
+        return None;
+    }
+    let mut shapes: Vec<LinkShape> = Vec::new();
+    for shape in described.shapes {
+        if has_own(&shape.link) {
+            continue;
+        }
+        let name = name_of(&shape.link);
+        let numbered = (2..).map(|number| format!("{name}.{number}"));
+        let is_free = |name: &String| own.iter().chain(&shapes).all(|other| other.name != *name);
+        let free = std::iter::once(name.clone()).chain(numbered).find(is_free);
+        shapes.push(LinkShape {
+            // There are finitely many names that are taken.
+            name: free.unwrap_or(name),
+            link: shape.link,
+            geometry: Geometry::from(shape.shape),
+        });
+    }
+    Some(shapes)
+}
+
+fn refuse_meshes(
+    table: &Table,
+    file: &UrdfConfig,
+    mesh: &conik_urdf::LinkMesh,
+    more: usize,
+    found: &mut Mistakes,
+) {
+    let others = match more {
+        0 => String::new(),
+        1 => ", and one more link".to_owned(),
+        more => format!(", and {more} more"),
+    };
+    let what = format!(
+        "{}:{}: the shape of link {:?} is a mesh, and meshes have no distance{others}",
+        file.urdf, mesh.line, mesh.link
+    );
+    let help = "give each such link a `[[shape]]`, or take `shapes = \"primitives\"`, which keeps no \
+                distance to meshes";
+    mistaken(table, &keys::URDF_SHAPES, &what, help, found);
+}
