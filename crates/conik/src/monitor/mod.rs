@@ -44,6 +44,8 @@ pub struct TaskHistory {
     pub final_error: f64,
     /// Smallest violation so far: what a set that was never entered is held against.
     best_violation: f64,
+    /// When it was furthest outside [s].
+    worst_at_s: f64,
     /// Time of the last tick [s].
     last_s: f64,
     started_inside: bool,
@@ -104,6 +106,7 @@ impl TaskHistory {
         active_ticks: 0,
         final_error: 0.0,
         best_violation: f64::INFINITY,
+        worst_at_s: 0.0,
         last_s: 0.0,
         started_inside: false,
     };
@@ -153,7 +156,10 @@ impl Monitor {
         if history.is_before_the_first_tick() {
             history.started_inside = inside;
         }
-        history.worst_violation = history.worst_violation.max(violation);
+        if violation > history.worst_violation {
+            history.worst_violation = violation;
+            history.worst_at_s = t_s;
+        }
         match (high_priority, history.entered_s.is_some()) {
             (true, true) if history.started_inside => self.inside_stays.add(violation, t_s, id),
             (true, true) => self.entered_stays.add(violation, t_s, id),
@@ -189,7 +195,7 @@ impl Monitor {
             if level.interval().is_none() {
                 equality_converges.add(history.final_error, history.last_s, id);
             } else if !stack.is_high_priority(id) && history.entered_s.is_none() {
-                low_priority_excess.add(history.worst_violation, history.last_s, id);
+                low_priority_excess.add(history.worst_violation, history.worst_at_s, id);
             }
         }
         Properties {
