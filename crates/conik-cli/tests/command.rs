@@ -6,6 +6,7 @@ mod command {
     mod documents;
     mod explain;
     mod gallery;
+    mod gallery_pages;
     mod monitors;
     mod network;
     mod outputs;

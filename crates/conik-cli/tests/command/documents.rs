@@ -5,10 +5,13 @@ use std::path::{Path, PathBuf};
 
 use super::process::{conik, empty_folder, ended, repository};
 
-/// README.md and docs/*.md, with their text.
+/// README.md, docs/*.md and docs/gallery/*.md, with their text.
 fn documents() -> Vec<(PathBuf, String)> {
-    let docs = fs::read_dir(repository().join("docs")).unwrap();
-    let mut paths: Vec<PathBuf> = docs.map(|entry| entry.unwrap().path()).collect();
+    let folders = ["docs", "docs/gallery"].map(|folder| repository().join(folder));
+    let entries = folders
+        .iter()
+        .flat_map(|folder| fs::read_dir(folder).unwrap());
+    let mut paths: Vec<PathBuf> = entries.map(|entry| entry.unwrap().path()).collect();
     paths.push(repository().join("README.md"));
     paths.retain(|path| path.extension().is_some_and(|extension| extension == "md"));
     paths
