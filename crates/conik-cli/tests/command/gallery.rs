@@ -94,8 +94,9 @@ fn links_slide_along_the_shelf_and_miss_each_other() {
     let shelf = run("shelf", "shelf.toml", |text| text);
     for (pair, distance) in [
         ("forearm/post", 0.02),
-        ("hand/board", 0.01),
+        ("wrist/board", 0.01),
         ("hand/post", 0.02),
+        ("forearm/hand", 0.03),
     ] {
         let task = &shelf["tasks"][pair];
         assert!(task["active_s"].as_f64() > Some(0.5), "{pair}: {task}");
@@ -105,7 +106,8 @@ fn links_slide_along_the_shelf_and_miss_each_other() {
             "{pair}: {closest}"
         );
     }
-    assert!(shelf["tasks"]["forearm/hand"]["min"].as_f64() > Some(0.02));
+    let limit = &shelf["tasks"]["limit/elbow_joint"];
+    assert!(limit["active_s"].as_f64() > Some(1.0), "{limit}");
     assert!(
         shelf["tasks"].get("upper_arm/forearm").is_none(),
         "neighbours"
