@@ -1,5 +1,7 @@
 //! The command `conik` as its users meet it: what it prints, what it writes, and its exit status.
 
+mod svg_frame;
+
 mod command {
     mod bad_input;
     mod default_rules;
@@ -10,6 +12,7 @@ mod command {
     mod monitors;
     mod network;
     mod outputs;
+    mod pictures;
     mod process;
     mod run_folder;
     mod small_commands;

@@ -81,7 +81,7 @@ impl<'a> Arm<'a> {
             steps[nth] = step;
             let radius = self.radius(step, joints.len());
             self.link(from, joint.frame.origin, radius, &mut drawn);
-            self.joint(joint, radius, &mut drawn);
+            self.joint(joint, &base, radius, &mut drawn);
         }
         for &tool in &self.tools {
             let pose = kinematics.world_from(tool);
@@ -119,10 +119,16 @@ impl<'a> Arm<'a> {
         }
     }
 
-    /// Radius of a link: the farther from the base, the slimmer.
+    /// Thickness of what it stands on [m].
+    fn plate(&self) -> f64 {
+        1.2 * self.radius(0, 1)
+    }
+
+    /// Radius of a link: the farther from the base, the slimmer. Where there are several branches, all are.
     fn radius(&self, step: usize, joints: usize) -> f64 {
         let part = step as f64 / joints.max(1) as f64;
-        self.size * (0.034 - 0.016 * part.min(1.0))
+        let branches = if self.tools.len() > 1 { 0.6 } else { 1.0 };
+        branches * self.size * (0.034 - 0.016 * part.min(1.0))
     }
 
     fn link(&self, from: Vec3, to: Vec3, radius: f64, drawn: &mut Drawn) {
@@ -134,7 +140,7 @@ impl<'a> Arm<'a> {
         }
     }
 
-    fn joint(&self, joint: &PlacedJoint, radius: f64, drawn: &mut Drawn) {
+    fn joint(&self, joint: &PlacedJoint, base: &Pose, radius: f64, drawn: &mut Drawn) {
         if self.size == 0.0 {
             return;
         }
@@ -142,6 +148,14 @@ impl<'a> Arm<'a> {
         match joint.kind {
             JointKind::Revolute => {
                 let half = axis * (1.35 * radius);
+                // One in the base stands on it, not in the floor.
+                let is_in_base =
+                    (at - base.origin).norm() < self.plate() && axis.dot(base.z_axis).abs() > 0.9;
+                let at = if is_in_base {
+                    base.origin + base.z_axis * (self.plate() + 1.35 * radius)
+                } else {
+                    at
+                };
                 let drum = Cylinder::new(at - half, at + half, 1.3 * radius);
                 drawn.solids.push((drum.into(), JOINT));
             }
@@ -165,7 +179,7 @@ impl<'a> Arm<'a> {
     }
 
     fn axes(&self, tool: &Pose, drawn: &mut Drawn) {
-        let (length, radius) = (0.1 * self.size, 0.0055 * self.size);
+        let (length, radius) = (0.1 * self.size, 0.16 * self.radius(0, 1));
         for (axis, colour) in [tool.x_axis, tool.y_axis, tool.z_axis]
             .into_iter()
             .zip(AXES)

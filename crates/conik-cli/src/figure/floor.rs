@@ -17,6 +17,22 @@ use super::svg::{Marks, Point};
 const TICK: f64 = 10.0;
 const SHADOW: &str = "#8e99a6";
 
+/// Width of the widest number on the rulers of the floor [px].
+pub fn widest_number(scene: &Scene) -> f64 {
+    let ends = [scene.low, scene.high].into_iter().flatten();
+    let widths = ends.map(|value| lettering::width(&number(value, scene.step), TICK));
+    widths.fold(0.0, f64::max)
+}
+
+/// A number on a ruler; the step tells how exact it has to be.
+fn number(value: f64, step: f64) -> String {
+    if (value / step).round() == 0.0 {
+        return "0".to_owned();
+    }
+    let decimals = decimals_of(step);
+    lettering::minus(&format!("{value:.decimals$}"))
+}
+
 /// Draws floor, grid, rulers and shadows.
 pub fn draw(scene: &Scene, view: &View, marks: &mut Marks, placement: &mut Placement) {
     let (low, high) = (scene.low, scene.high);
@@ -80,9 +96,10 @@ fn corner_where(scene: &Scene, most: impl Fn(Vector) -> f64) -> Vector {
 }
 
 fn lines(low: f64, high: f64, step: f64) -> Vec<f64> {
-    // The box is a whole number of steps, about ten of them.
+    let first = (low / step - 0.01).ceil();
+    // The box is about ten steps long.
     (0..200)
-        .map(|nth| low + f64::from(nth) * step)
+        .map(|nth| (first + f64::from(nth)) * step)
         .take_while(|value| *value <= high + 0.01 * step)
         .collect()
 }
@@ -112,26 +129,20 @@ impl Rulers<'_> {
         let stride = (if k == 2 { 20.0 } else { 34.0 } / pixels.max(0.1)).ceil();
         self.marks
             .line(from, to, Stroke::solid(palette::FRAME, 1.0));
-        let decimals = decimals_of(step);
-        for (nth, value) in lines(low, high, step).into_iter().enumerate() {
+        for value in lines(low, high, step) {
             // Counted from zero, so that round numbers keep their labels.
             let whole = (value / step).round();
             let (x, y) = at(value);
             let tip = (x + 4.0 * out.0, y + 4.0 * out.1);
             self.marks
                 .line((x, y), tip, Stroke::solid(palette::FRAME, 1.0));
-            if whole.rem_euclid(stride) != 0.0 || (k == 2 && nth == 0) {
+            if whole.rem_euclid(stride) != 0.0 || (k == 2 && value - low < 0.3 * step) {
                 continue;
             }
-            let text = if whole == 0.0 {
-                "0".to_owned()
-            } else {
-                format!("{value:.decimals$}")
-            };
             self.write(
                 (x + 9.0 * out.0, y + 9.0 * out.1),
                 out,
-                &lettering::minus(&text),
+                &number(value, step),
                 TICK,
             );
         }

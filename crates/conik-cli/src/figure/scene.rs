@@ -143,8 +143,10 @@ impl Scene {
                 low[k] = low[k].min(0.0);
                 high[k] = high[k].max(0.0);
             }
-            // A number that was rounded is no reason for another line.
-            low[k] = ((low[k] - room) / step + 1e-6).floor() * step;
+            // The floor is close below what stands on it, the grid's edges are lines of the grid. A number
+            // that was rounded is no reason for another line.
+            let grain = if k == 2 { step / 5.0 } else { step };
+            low[k] = ((low[k] - room) / grain + 1e-6).floor() * grain;
             high[k] = ((high[k] + room) / step - 1e-6).ceil() * step;
             if high[k] - low[k] < step {
                 high[k] = low[k] + step;

@@ -65,11 +65,12 @@ impl Stage<'_> {
     /// The view that fits a picture of that size [px], and the labels that are placed on it.
     pub fn view(&self, view_deg: (f64, f64), width: f64, height: f64) -> (View, Placement) {
         let camera = Camera::at(view_deg.0, view_deg.1);
+        let numbers = floor::widest_number(self.scene);
         let view = View::fitting(
             camera,
             &self.outline(&camera),
-            (58.0, TOP),
-            (width - 34.0, height - BOTTOM),
+            (58.0_f64.max(numbers + 14.0), TOP),
+            (width - 34.0_f64.max(numbers + 14.0), height - BOTTOM),
         );
         let page = Area {
             at: (2.0, 2.0),

@@ -66,8 +66,24 @@ impl Viewpoint<'_> {
                 lengths.fold((0.0, 1e-9), |sum, it| (sum.0 + it.0, sum.1 + it.1));
             on_paper / whole
         };
+        // An arm reads best from the side that it works on.
+        let clear = if self.works_in_front(camera) {
+            clear
+        } else {
+            0.92 * clear
+        };
         let spread: f64 = self.figures.iter().map(spread).sum();
         clear * (path + 1.5 * spread / self.figures.len() as f64 + 1.5 * self.unhidden(camera))
+    }
+
+    /// Whether the middle of the path is nearer than the base, where the figures end.
+    fn works_in_front(&self, camera: &Camera) -> bool {
+        let base = self.figures.iter().find_map(|line| line.last());
+        let points = self.scene.path.iter().flat_map(|piece| &piece.points);
+        let (count, sum) = points.fold((0.0, 0.0), |(count, sum), &point| {
+            (count + 1.0, sum + camera.nearness(point))
+        });
+        base.is_none_or(|&base| sum >= count * camera.nearness(base))
     }
 
     /// The part of the last figures that no obstacle hides.
