@@ -53,3 +53,56 @@ fn mistakes_in_the_file_are_shown_with_its_own_line() {
     assert!(said.contains("rail-arm.urdf:18:"), "{said}");
     assert!(said.contains("cell.toml:8:"), "{said}");
 }
+
+/// A UR arm's joints, with lengths of nobody's.
+fn ur_urdf() -> String {
+    let joints = [
+        "shoulder_pan",
+        "shoulder_lift",
+        "elbow",
+        "wrist_1",
+        "wrist_2",
+        "wrist_3",
+    ];
+    let mut text = "<robot name=\"ur5e\"><link name=\"l0\"/>".to_owned();
+    for (i, joint) in joints.iter().enumerate() {
+        let (next, y) = (i + 1, i % 2);
+        let x = 1 - y;
+        text += &format!(
+            "<link name=\"l{next}\"/><joint name=\"left_{joint}_joint\" type=\"revolute\">\
+             <parent link=\"l{i}\"/><child link=\"l{next}\"/><origin xyz=\"0 {x} 0.2\"/>\
+             <axis xyz=\"0 {y} {x}\"/><limit lower=\"-3\" upper=\"3\" velocity=\"1\"/></joint>"
+        );
+    }
+    text + "</robot>"
+}
+
+#[test]
+fn joints_in_another_order_than_the_controllers_are_not_driven() {
+    let folder = empty_folder("urdf order");
+    fs::write(folder.join("ur.urdf"), ur_urdf()).unwrap();
+    let cell = |ways: &str| {
+        format!(
+            "[robot]\nurdf = \"ur.urdf\"\nq0_deg = [10, 20, 30, 40, 50, 60]\n{ways}\n[control]\n\
+             duration_s = 0.1\n[[task]]\nname = \"still\"\ntype = \"posture\"\n\
+             desired_deg = [10, 20, 30, 40, 50, 60]\ngain_per_s = 1\n"
+        )
+    };
+    fs::write(folder.join("cell.toml"), cell("")).unwrap();
+    let output = say(&folder, "run cell.toml --fast --out right");
+    assert_eq!(output.status, Some(0), "{}", output.stderr);
+    assert!(!output.stderr.contains("warning"), "{}", output.stderr);
+    let turned = cell("base = \"l6\"\ntool = \"l0\"");
+    fs::write(folder.join("cell.toml"), turned).unwrap();
+    for robot in ["emulator", "127.0.0.1"] {
+        let output = say(
+            &folder,
+            &format!("run cell.toml --fast --robot {robot} --out turned"),
+        );
+        let said = output.stderr;
+        assert_eq!(output.status, Some(2), "{said}");
+        let said = said.split_whitespace().collect::<Vec<_>>().join(" ");
+        let part = "has them as left_wrist_3_joint, left_wrist_2_joint";
+        assert!(said.contains(part), "{said}");
+    }
+}
