@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use conik::{Interval, JointKind, Reason, Vec3};
+use conik::{Interval, JointKind, Kinematics, Reason, Vec3};
 use conik_cli::report::units::{limit, quantity};
 use conik_sim::experiment::Experiment;
 use conik_sim::mover::Mover;
@@ -127,11 +127,15 @@ fn mode(record: &Record, experiment: &Experiment) -> String {
 }
 
 fn waypoint(record: &Record, experiment: &Experiment) -> Option<String> {
-    let (_, waypoints) = experiment.waypoints.as_ref()?;
-    let target = *waypoints.points().get(record.waypoint)?;
-    let distance = quantity((target - record.tool).norm(), "m");
-    let (nth, all) = (record.waypoint + 1, waypoints.points().len());
-    Some(format!("waypoint {nth} of {all}, {distance} to go"))
+    let waypoints = experiment.waypoints.as_ref()?;
+    let mut kinematics = Kinematics::new(&experiment.robot);
+    kinematics.update(&record.q);
+    let (distance, angle) = waypoints.to_go(record.waypoint, &kinematics);
+    let distance = distance.map(|distance| format!("{} to go", quantity(distance, "m")));
+    let angle = angle.map(|angle| format!("{} to turn", quantity(angle, "rad")));
+    let left: Vec<_> = [distance, angle].into_iter().flatten().collect();
+    let (nth, all) = (record.waypoint + 1, waypoints.count());
+    Some(format!("waypoint {nth} of {all}, {}", left.join(", ")))
 }
 
 /// The value of each set and its distance to its border; the error of each equality task.

@@ -127,9 +127,9 @@ fn task_row(summary: &Summary, task: &TaskConfig) -> [String; 5] {
         .map_or("", String::as_str);
     let result = summary.tasks.get(&task.name).cloned().unwrap_or_default();
     let goal = match &task.goal {
-        GoalConfig::Waypoints { waypoints_m, .. } => match waypoints_m.len() {
-            1 => "1 waypoint".to_owned(),
-            count => format!("{count} waypoints"),
+        GoalConfig::Waypoints { .. } => match task.goal.waypoint_count() {
+            Some(count) if count != 1 => format!("{count} waypoints"),
+            _ => "1 waypoint".to_owned(),
         },
         GoalConfig::Desired { desired, .. } => {
             let values = || {

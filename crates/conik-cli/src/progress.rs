@@ -39,7 +39,10 @@ impl Progress {
         };
         let first_equality = stack.iter().find(|(_, level)| level.interval().is_none());
         let to_go = match (&experiment.waypoints, first_equality) {
-            (Some((task, _)), _) => error_of(stack[*task].name()).map(|column| (column, "m")),
+            (Some(waypoints), _) => {
+                let level = &stack[waypoints.task];
+                error_of(level.name()).map(|column| (column, level.task().unit()))
+            }
             (None, Some((_, level))) => {
                 error_of(level.name()).map(|column| (column, level.task().unit()))
             }
@@ -62,10 +65,7 @@ impl Progress {
             last: Instant::now(),
             duration_s: experiment.last_tick as f64 / experiment.controller.settings().rate_hz,
             to_go,
-            waypoints: experiment
-                .waypoints
-                .as_ref()
-                .map_or(0, |(_, w)| w.points().len()),
+            waypoints: experiment.waypoint_count(),
         }
     }
 

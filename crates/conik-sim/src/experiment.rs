@@ -1,8 +1,8 @@
 //! From a scenario to the objects that run it: robot, controller, waypoints.
 
 use conik::{
-    Controller, ControllerError, JointVec, ModeOrder, Robot, Settings, Stack, StackError, TaskId,
-    TooManyJoints, Vec3, Waypoints,
+    Controller, ControllerError, JointVec, ModeOrder, Robot, Settings, Stack, StackError,
+    TooManyJoints,
 };
 
 use crate::joint_limits::limited_robot;
@@ -13,6 +13,7 @@ use crate::scenario::{
     Border, Control, Damping, DampingRule, DescriptionError, GoalConfig, ModeRule, Recursion,
     Scenario,
 };
+use crate::visits::Visits;
 
 /// A scenario made ready to run.
 #[derive(Debug)]
@@ -23,8 +24,8 @@ pub struct Experiment {
     pub controller: Controller,
     /// Numbers of the modes.
     pub mode_order: ModeOrder,
-    /// The position task that visits waypoints, and those.
-    pub waypoints: Option<(TaskId, Waypoints)>,
+    /// The task that visits waypoints, and those.
+    pub waypoints: Option<Visits>,
     /// What moves besides the robot.
     pub movers: Vec<Mover>,
     /// Joint positions at the start [rad].
@@ -87,15 +88,7 @@ impl Experiment {
             {
                 stack.setpoints().set_recovery(id, Some(speed))?;
             }
-            if let GoalConfig::Waypoints {
-                waypoints_m,
-                acceptance_m,
-                ..
-            } = &task.goal
-            {
-                let points = waypoints_m.iter().copied().map(Vec3::from).collect();
-                waypoints = Waypoints::new(points, *acceptance_m).map(|points| (id, points));
-            }
+            waypoints = Visits::of(id, task, &robot)?.or(waypoints);
         }
         for group in &scenario.control.exclusive {
             let ids = group
@@ -124,8 +117,7 @@ impl Experiment {
 impl Experiment {
     /// How many waypoints there are to reach.
     pub fn waypoint_count(&self) -> usize {
-        let waypoints = self.waypoints.as_ref();
-        waypoints.map_or(0, |(_, waypoints)| waypoints.points().len())
+        self.waypoints.as_ref().map_or(0, Visits::count)
     }
 
     /// The control period [s].

@@ -28,3 +28,4 @@ pub mod servo;
 mod servo_delay;
 pub mod summarise;
 pub mod summary;
+pub mod visits;

@@ -8,7 +8,7 @@ use conik::{
 
 use crate::experiment::ExperimentError;
 use crate::named_shapes::NoPair;
-use crate::scenario::{Axis, GoalConfig, Part, TaskConfig, TaskKind};
+use crate::scenario::{Axis, Frames, GoalConfig, Part, TaskConfig, TaskKind};
 
 /// Adds the task below all others.
 pub(crate) fn add_task(
@@ -16,15 +16,8 @@ pub(crate) fn add_task(
     robot: &Robot,
     config: &TaskConfig,
 ) -> Result<TaskId, ExperimentError> {
-    let link = |name: &String| {
-        let place = robot.link_names().position(|link| link == name);
-        place
-            .map(Frame::Link)
-            .ok_or_else(|| ExperimentError::UnknownLink(name.clone()))
-    };
-    let frame = config.frames.frame.as_ref().map_or(Ok(Frame::Tool), link)?;
-    let from = config.frames.relative_to.as_ref();
-    let from = from.map_or(Ok(Frame::World), link)?;
+    let link = |name: &String| link(robot, name);
+    let (frame, from) = frames(robot, &config.frames)?;
     match config.kind {
         TaskKind::Shapes(ref pair) => add(stack, config, pair.task(robot)?),
         TaskKind::ShapeDistance { ref shapes } => Err(without_shapes(config, shapes)),
@@ -121,6 +114,22 @@ fn without_shapes(config: &TaskConfig, names: &[String; 2]) -> ExperimentError {
     ExperimentError::Shapes(config.name.clone(), NoPair::Unknown(names[0].clone()))
 }
 
+/// What is measured, and the frame that it is seen from.
+pub(crate) fn frames(robot: &Robot, frames: &Frames) -> Result<(Frame, Frame), ExperimentError> {
+    let frame = frames.frame.as_ref();
+    let frame = frame.map_or(Ok(Frame::Tool), |name| link(robot, name))?;
+    let from = frames.relative_to.as_ref();
+    let from = from.map_or(Ok(Frame::World), |name| link(robot, name))?;
+    Ok((frame, from))
+}
+
+fn link(robot: &Robot, name: &String) -> Result<Frame, ExperimentError> {
+    let place = robot.link_names().position(|link| link == name);
+    place
+        .map(Frame::Link)
+        .ok_or_else(|| ExperimentError::UnknownLink(name.clone()))
+}
+
 /// Joints are counted from 1 in scenarios; 0 is refused by the stack as any other that the robot does not
 /// have.
 fn index(joint: usize) -> usize {
@@ -143,10 +152,15 @@ fn add(stack: &mut Stack, config: &TaskConfig, task: impl Task) -> Result<TaskId
             gain_per_s,
             ..
         } => {
-            let first = waypoints_m
-                .first()
-                .ok_or_else(|| ExperimentError::NoWaypoints(name.clone()))?;
-            stack.equality(name, task, first, *gain_per_s)?
+            let first = match config.kind {
+                TaskKind::Position => waypoints_m
+                    .first()
+                    .ok_or_else(|| ExperimentError::NoWaypoints(name.clone()))?
+                    .to_vec(),
+                // Of all others zero is desired; where that is, is their own parameter.
+                _ => vec![0.0; task.dimension()],
+            };
+            stack.equality(name, task, &first, *gain_per_s)?
         }
         GoalConfig::Desired {
             desired,

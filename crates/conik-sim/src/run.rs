@@ -171,18 +171,15 @@ fn decide(
     feedback: &Feedback,
 ) -> Result<Record, ArmError> {
     let controller = &mut experiment.controller;
-    let tool = controller.kinematics_at(q).world_from(Frame::Tool).origin;
+    let kinematics = controller.kinematics_at(q);
+    let tool = kinematics.world_from(Frame::Tool).origin;
     let (mut waypoint, mut reached) = (0, None);
-    if let Some((task, waypoints)) = &mut experiment.waypoints {
-        reached = waypoints.advance(tool);
+    if let Some(waypoints) = &mut experiment.waypoints {
+        let pose = waypoints.pose(kinematics);
+        reached = waypoints
+            .advance(&pose, &mut controller.setpoints())
+            .map_err(|error| ArmError::new("bad-waypoint", error.to_string()))?;
         waypoint = waypoints.index();
-        if reached.is_some() {
-            let target = waypoints.target().to_array();
-            controller
-                .setpoints()
-                .set_desired(*task, &target)
-                .map_err(|error| ArmError::new("bad-waypoint", error.to_string()))?;
-        }
     }
     let before = Instant::now();
     let step = controller

@@ -68,7 +68,9 @@ fn the_papers_second_example_reads_as_written() {
         scenario.tasks[3].goal,
         GoalConfig::Waypoints {
             waypoints_m: vec![[0.486, -0.066, -0.250], [0.320, 0.370, -0.250]],
-            acceptance_m: 0.02,
+            waypoints_quaternion_wxyz: vec![],
+            acceptance_m: Some(0.02),
+            acceptance_rad: None,
             gain_per_s: 0.3,
         }
     );

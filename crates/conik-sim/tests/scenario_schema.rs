@@ -79,6 +79,12 @@ type = "position"
 target_m = [1, 2, 3]
 gain_per_s = 1
 [[task]]
+name = "grasp"
+type = "pose"
+target_m = [0, 0, 1]
+desired_rpy_deg = [0, 0, 9]
+gain_per_s = 1
+[[task]]
 name = "z"
 type = "coordinate"
 axis = "z"
@@ -96,97 +102,119 @@ damping = "smallest"
 
 const PAIRS: &str = "position_limits_deg = [[-90, 90], [], [], [], [], []]";
 
+/// What stands in the good file, and what makes it bad in its place.
+const MISTAKES: &[(&str, &str)] = &[
+    ("[robot]", "titel = 1\n[robot]"),
+    ("[robot]", "title = 1\n[robot]"),
+    ("model = \"ur5-paper\"", "model = \"ur6\""),
+    ("model = \"ur5-paper\"", ""),
+    ("q0_rad = [0, 0.5, 1, 0, 0, 0]", ""),
+    ("q0_rad = [0, 0.5, 1, 0, 0, 0]", "q0_rad = [0]"),
+    (
+        "q0_rad = [0, 0.5, 1, 0, 0, 0]",
+        "q0_rad = [0, 0.5, 1, 0, 0, 2000]",
+    ),
+    (
+        "q0_rad = [0, 0.5, 1, 0, 0, 0]",
+        "q0_rad = [0, 0.5, 1, 0, 0, 0]\nq0_deg = [0, 0, 0, 0, 0, 0]",
+    ),
+    (PAIRS, "position_limits_deg = [[0, 1]]"),
+    (PAIRS, "position_limits_rad = [[0], [], [], [], [], []]"),
+    (PAIRS, "position_limits_rad = [[], [], [], [], [], 1]"),
+    ("speed_limits_rad_per_s = 1", "speed_limits_rad_per_s = 0"),
+    ("speed_limits_rad_per_s = 1", "speed_limits_rad_per_s = [1]"),
+    ("[control]", "acceleration_limits_rad_per_s2 = 1\n[control]"),
+    (
+        "velocity_m_per_s = [0, 0, 0.1]",
+        "velocity_m_per_s = [1, 2]",
+    ),
+    ("velocity_m_per_s = [0, 0, 0.1]", ""),
+    ("min = 0.1\n", "min = 0.1\ndesired_per_s = 1\n"),
+    (
+        "direction = [1, 0, 0]",
+        "direction = [1, 0, 0]\nangular_velocity_deg_per_s = [0, 0, 1]\nangular_velocity_rad_per_s = [0, 0, 1]",
+    ),
+    (
+        "direction = [1, 0, 0]",
+        "direction = [1, 0, 0]\nmoves_until_s = 1",
+    ),
+    (
+        "target_m = [1, 2, 3]",
+        "waypoints_m = [[1, 2, 3]]\nacceptance_m = 1\nvelocity_m_per_s = [1, 2, 3]",
+    ),
+    ("recovery_per_s = 0.1", "recovery_per_s = 0"),
+    ("gain_per_s = 2", "gain_per_s = 2\nrecovery_per_s = 1"),
+    ("damping = 0.1", "damping = -0.1"),
+    ("damping = 0.1", "damping = 1e7"),
+    ("damping = 0.1", "damping = \"fixed\""),
+    ("damping = 0.1", "damping = []"),
+    ("damping = \"smallest\"", "damping = \"smalest\""),
+    ("rate_hz = 125", "rate = 125"),
+    ("rate_hz = 125", "rate_hz = 0"),
+    ("rate_hz = 125", "rate_hz = \"fast\""),
+    ("rate_hz = 125", "duration_s = 0"),
+    ("rate_hz = 125", "mode_rule = \"kone\""),
+    ("rate_hz = 125", "border = \"soft\""),
+    ("rate_hz = 125", "recursion = \"siciliano\""),
+    ("exclusive = [[\"a\", \"b\"]]", "exclusive = [[\"a\"]]"),
+    (
+        "exclusive = [[\"a\", \"b\"]]",
+        "exclusive = [[\"a\", \"a\"]]",
+    ),
+    ("exclusive = [[\"a\", \"b\"]]", "exclusive = [\"a\", \"b\"]"),
+    ("name = \"c\"", "name = \"c d\""),
+    ("name = \"c\"", ""),
+    ("type = \"joint\"", "type = \"joints\""),
+    ("type = \"joint\"", ""),
+    ("joint = \"elbow_joint\"", "joint = \"elbow\""),
+    ("joint = \"elbow_joint\"", "joint = 0"),
+    ("joint = \"elbow_joint\"", ""),
+    ("point_m = [1, 2, 3]", "point_m = [1, 2]"),
+    ("min = 0.1", ""),
+    ("min = 0.1\n", "min = 0.1\ndesired = 1\ngain_per_s = 1\n"),
+    ("min = 0.1", "min = 0.1\naxis = \"z\""),
+    ("min = 0.1", "max = -0.1"),
+    ("max = 0.2", "min = 2.5"),
+    ("target_m = [1, 2, 3]", ""),
+    ("target_m = [1, 2, 3]", "min = 1"),
+    (
+        "target_m = [1, 2, 3]",
+        "target_m = [1, 2, 3]\nacceptance_m = 1",
+    ),
+    ("target_m = [1, 2, 3]", "waypoints_m = [[1, 2, 3]]"),
+    ("target_m = [1, 2, 3]", "waypoints_m = []\nacceptance_m = 1"),
+    (
+        "target_m = [1, 2, 3]",
+        "waypoints_m = [[1, 2, 3]]\nacceptance_m = 0",
+    ),
+    ("desired_rpy_deg = [0, 0, 9]", ""),
+    (
+        "desired_rpy_deg = [0, 0, 9]",
+        "waypoints_rpy_deg = [[0, 0, 9]]",
+    ),
+    (
+        "target_m = [0, 0, 1]\ndesired_rpy_deg = [0, 0, 9]",
+        "waypoints_m = [[0, 0, 1]]\nwaypoints_rpy_deg = [[0, 0, 9]]\nacceptance_m = 1",
+    ),
+    (
+        "target_m = [0, 0, 1]\ndesired_rpy_deg = [0, 0, 9]",
+        "waypoints_m = [[0, 0, 1]]\nwaypoints_rpy_deg = [[0, 0, 9]]\nacceptance_m = 1\n\
+             acceptance_deg = 1\nvelocity_m_per_s = [0, 0, 0]",
+    ),
+    (
+        "target_m = [0, 0, 1]\ndesired_rpy_deg = [0, 0, 9]",
+        "waypoints_m = [[0, 0, 1]]\nwaypoints_quaternion_wxyz = [[0, 0, 9]]\nacceptance_m = 1\n\
+             acceptance_deg = 1",
+    ),
+    ("axis = \"z\"", "axis = \"w\""),
+    ("gain_per_s = 2", ""),
+    ("gain_per_s = 2", "gain_per_s = -2"),
+];
+
 #[test]
 fn schema_and_reader_refuse_the_same_mistakes() {
     assert!(Scenario::from_toml(GOOD).is_ok() && is_valid(GOOD));
-    for (good, bad) in [
-        ("[robot]", "titel = 1\n[robot]"),
-        ("[robot]", "title = 1\n[robot]"),
-        ("model = \"ur5-paper\"", "model = \"ur6\""),
-        ("model = \"ur5-paper\"", ""),
-        ("q0_rad = [0, 0.5, 1, 0, 0, 0]", ""),
-        ("q0_rad = [0, 0.5, 1, 0, 0, 0]", "q0_rad = [0]"),
-        (
-            "q0_rad = [0, 0.5, 1, 0, 0, 0]",
-            "q0_rad = [0, 0.5, 1, 0, 0, 2000]",
-        ),
-        (
-            "q0_rad = [0, 0.5, 1, 0, 0, 0]",
-            "q0_rad = [0, 0.5, 1, 0, 0, 0]\nq0_deg = [0, 0, 0, 0, 0, 0]",
-        ),
-        (PAIRS, "position_limits_deg = [[0, 1]]"),
-        (PAIRS, "position_limits_rad = [[0], [], [], [], [], []]"),
-        (PAIRS, "position_limits_rad = [[], [], [], [], [], 1]"),
-        ("speed_limits_rad_per_s = 1", "speed_limits_rad_per_s = 0"),
-        ("speed_limits_rad_per_s = 1", "speed_limits_rad_per_s = [1]"),
-        ("[control]", "acceleration_limits_rad_per_s2 = 1\n[control]"),
-        (
-            "velocity_m_per_s = [0, 0, 0.1]",
-            "velocity_m_per_s = [1, 2]",
-        ),
-        ("velocity_m_per_s = [0, 0, 0.1]", ""),
-        ("min = 0.1\n", "min = 0.1\ndesired_per_s = 1\n"),
-        (
-            "direction = [1, 0, 0]",
-            "direction = [1, 0, 0]\nangular_velocity_deg_per_s = [0, 0, 1]\nangular_velocity_rad_per_s = [0, 0, 1]",
-        ),
-        (
-            "direction = [1, 0, 0]",
-            "direction = [1, 0, 0]\nmoves_until_s = 1",
-        ),
-        (
-            "target_m = [1, 2, 3]",
-            "waypoints_m = [[1, 2, 3]]\nacceptance_m = 1\nvelocity_m_per_s = [1, 2, 3]",
-        ),
-        ("recovery_per_s = 0.1", "recovery_per_s = 0"),
-        ("gain_per_s = 2", "gain_per_s = 2\nrecovery_per_s = 1"),
-        ("damping = 0.1", "damping = -0.1"),
-        ("damping = 0.1", "damping = 1e7"),
-        ("damping = 0.1", "damping = \"fixed\""),
-        ("damping = 0.1", "damping = []"),
-        ("damping = \"smallest\"", "damping = \"smalest\""),
-        ("rate_hz = 125", "rate = 125"),
-        ("rate_hz = 125", "rate_hz = 0"),
-        ("rate_hz = 125", "rate_hz = \"fast\""),
-        ("rate_hz = 125", "duration_s = 0"),
-        ("rate_hz = 125", "mode_rule = \"kone\""),
-        ("rate_hz = 125", "border = \"soft\""),
-        ("rate_hz = 125", "recursion = \"siciliano\""),
-        ("exclusive = [[\"a\", \"b\"]]", "exclusive = [[\"a\"]]"),
-        (
-            "exclusive = [[\"a\", \"b\"]]",
-            "exclusive = [[\"a\", \"a\"]]",
-        ),
-        ("exclusive = [[\"a\", \"b\"]]", "exclusive = [\"a\", \"b\"]"),
-        ("name = \"c\"", "name = \"c d\""),
-        ("name = \"c\"", ""),
-        ("type = \"joint\"", "type = \"joints\""),
-        ("type = \"joint\"", ""),
-        ("joint = \"elbow_joint\"", "joint = \"elbow\""),
-        ("joint = \"elbow_joint\"", "joint = 0"),
-        ("joint = \"elbow_joint\"", ""),
-        ("point_m = [1, 2, 3]", "point_m = [1, 2]"),
-        ("min = 0.1", ""),
-        ("min = 0.1\n", "min = 0.1\ndesired = 1\ngain_per_s = 1\n"),
-        ("min = 0.1", "min = 0.1\naxis = \"z\""),
-        ("min = 0.1", "max = -0.1"),
-        ("max = 0.2", "min = 2.5"),
-        ("target_m = [1, 2, 3]", ""),
-        ("target_m = [1, 2, 3]", "min = 1"),
-        (
-            "target_m = [1, 2, 3]",
-            "target_m = [1, 2, 3]\nacceptance_m = 1",
-        ),
-        ("target_m = [1, 2, 3]", "waypoints_m = [[1, 2, 3]]"),
-        ("target_m = [1, 2, 3]", "waypoints_m = []\nacceptance_m = 1"),
-        (
-            "target_m = [1, 2, 3]",
-            "waypoints_m = [[1, 2, 3]]\nacceptance_m = 0",
-        ),
-        ("axis = \"z\"", "axis = \"w\""),
-        ("gain_per_s = 2", ""),
-        ("gain_per_s = 2", "gain_per_s = -2"),
-    ] {
+    for &(good, bad) in MISTAKES {
         assert!(GOOD.contains(good), "{good:?}");
         let text = GOOD.replacen(good, bad, 1);
         assert!(!is_valid(&text), "the schema allows {bad:?} for {good:?}");

@@ -82,6 +82,20 @@ const MOVING: &[(&str, &str)] = &[
         "axis = \"x\"\ndesired = 0.4\ndesired_per_s = -0.1\nmoves_until_s = 3\ngain_per_s = 1",
     ),
     (
+        "pose",
+        "waypoints_m = [[0.4, 0, 0], [0.3, 0.2, 0]]\nwaypoints_rpy_deg = [[170, 0, 30], [180, 0, 0]]\n\
+         acceptance_m = 0.02\nacceptance_deg = 3\ngain_per_s = 1",
+    ),
+    (
+        "pose",
+        "waypoints_m = [[0.4, 0, 0]]\nwaypoints_quaternion_wxyz = [[0.2, 3, 1, 0]]\n\
+         acceptance_m = 0.02\nacceptance_rad = 0.1\ngain_per_s = 1",
+    ),
+    (
+        "orientation",
+        "waypoints_rpy_deg = [[170, 0, 30], [180, 0, 0]]\nacceptance_deg = 3\ngain_per_s = 1",
+    ),
+    (
         "joint",
         "joint = 3\ndesired = 1\ndesired_per_s = 2e-2\ngain_per_s = 1",
     ),
@@ -298,6 +312,63 @@ const MISTAKES: &[(&str, &str, &str)] = &[
     (
         "position",
         "waypoints_m = [[0, 0, 1]]\nacceptance_m = 0.1\ngain_per_s = 1\nvelocity_m_per_s = [0, 0, 1]",
+        "waypoints stay where they are",
+    ),
+    (
+        "pose",
+        "waypoints_m = [[0, 0, 1]]\nwaypoints_rpy_deg = [[0, 0, 0]]\nacceptance_m = 0.1\ngain_per_s = 1",
+        "acceptance_deg",
+    ),
+    (
+        "pose",
+        "waypoints_m = [[0, 0, 1]]\nacceptance_deg = 2\nacceptance_m = 0.1\ngain_per_s = 1",
+        "waypoints_rpy_deg = [[",
+    ),
+    (
+        "pose",
+        "waypoints_m = [[0, 0, 1], [0, 1, 1]]\nwaypoints_rpy_deg = [[0, 0, 0]]\nacceptance_deg = 2\n\
+         acceptance_m = 0.1\ngain_per_s = 1",
+        "1 orientations for 2 points",
+    ),
+    (
+        "pose",
+        "target_m = [0, 0, 1]\nwaypoints_rpy_deg = [[0, 0, 0]]\nacceptance_deg = 2\ngain_per_s = 1",
+        "both `waypoints_rpy_deg` and `target_m` are given",
+    ),
+    (
+        "pose",
+        "target_m = [0, 0, 1]\ndesired_rpy_deg = [0, 0, 0]\nacceptance_deg = 2\ngain_per_s = 1",
+        "`acceptance_deg` says when the next waypoint is taken, and there are none",
+    ),
+    (
+        "orientation",
+        "waypoints_quaternion_wxyz = [[0, 0, 0, 0]]\nacceptance_deg = 2\ngain_per_s = 1",
+        "the quaternion 0 is no orientation",
+    ),
+    (
+        "orientation",
+        "waypoints_quaternion_wxyz = []\nacceptance_deg = 2\ngain_per_s = 1",
+        "the list is empty",
+    ),
+    (
+        "orientation",
+        "waypoints_quaternion_wxyz = [[1, 0, 0, 0], 3]\nacceptance_deg = 2\ngain_per_s = 1",
+        "expected a list of four numbers, found the number 3",
+    ),
+    (
+        "orientation",
+        "waypoints_rpy_deg = [[0, 0, 0]]\nacceptance_deg = 200\ngain_per_s = 1",
+        "out of range",
+    ),
+    (
+        "orientation",
+        "waypoints_rpy_deg = [[0, 0, 0]]\nacceptance_deg = 2\nacceptance_rad = 0.1\ngain_per_s = 1",
+        "both `acceptance_deg` and `acceptance_rad` are given",
+    ),
+    (
+        "pose",
+        "waypoints_m = [[0, 0, 1]]\nwaypoints_rpy_deg = [[0, 0, 0]]\nacceptance_m = 0.1\n\
+         acceptance_deg = 2\ngain_per_s = 1\nangular_velocity_deg_per_s = [0, 0, 1]",
         "waypoints stay where they are",
     ),
     (

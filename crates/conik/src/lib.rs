@@ -122,4 +122,4 @@ pub use task::{
     PointingAngle, Position, Posture, ShapeDistance, SmallestSingularValue, Task,
 };
 pub use task_id::TaskId;
-pub use waypoints::Waypoints;
+pub use waypoints::{PoseWaypoints, Waypoints};

@@ -42,8 +42,15 @@ pub fn chart(run: &Run, task: &TaskConfig, layout: Layout) -> Picture {
     let has_waypoints = matches!(task.goal, GoalConfig::Waypoints { .. });
     let mut chart = Chart::new(layout, &task.name, &label, run, axis);
     chart.curve(run, values, &[]);
-    if let GoalConfig::Waypoints { acceptance_m, .. } = task.goal {
-        acceptance(&mut chart, run, acceptance_m);
+    // Of a pose the error is in two units, and neither acceptance is a limit of it.
+    if let GoalConfig::Waypoints {
+        acceptance_m,
+        acceptance_rad,
+        ..
+    } = task.goal
+        && let (Some(one), None) | (None, Some(one)) = (acceptance_m, acceptance_rad)
+    {
+        acceptance(&mut chart, run, one);
     }
     if has_waypoints {
         arrivals(&mut chart, run);
@@ -74,9 +81,9 @@ fn axis_for(values: &[f64], layout: Layout) -> Axis {
 }
 
 /// The error at which the next waypoint is taken.
-fn acceptance(chart: &mut Chart, run: &Run, acceptance_m: f64) {
+fn acceptance(chart: &mut Chart, run: &Run, error: f64) {
     let (from_s, to_s) = run.period_s();
-    let (from, to) = (chart.at(from_s, acceptance_m), chart.at(to_s, acceptance_m));
+    let (from, to) = (chart.at(from_s, error), chart.at(to_s, error));
     chart
         .marks
         .line(from, to, Stroke::dashed(palette::LIMIT, 1.2, "2 3"));
@@ -89,7 +96,7 @@ fn acceptance(chart: &mut Chart, run: &Run, acceptance_m: f64) {
     }
     chart.label(
         &candidates,
-        &format!("accepted below {}", lettering::number(acceptance_m, 3)),
+        &format!("accepted below {}", lettering::number(error, 3)),
     );
 }
 

@@ -190,7 +190,7 @@ fn targets_of(run: &Run) -> Vec<Target> {
             ) => targets.extend(waypoints_m.iter().map(|&point| Target {
                 point,
                 from: point,
-                acceptance: *acceptance_m,
+                acceptance: acceptance_m.unwrap_or_default(),
             })),
             (TaskKind::Position, GoalConfig::Desired { desired, .. }) => {
                 if let [x, y, z] = desired[..] {

@@ -152,14 +152,19 @@ fn goal(task: &TaskConfig, unit: &str) -> String {
             _ => format!("= {} {}", point(desired), Escaped(unit)),
         },
         GoalConfig::Waypoints {
-            waypoints_m,
             acceptance_m,
+            acceptance_rad,
             ..
-        } => format!(
-            "{} waypoints, each to {}",
-            waypoints_m.len(),
-            units::quantity(*acceptance_m, "m")
-        ),
+        } => {
+            let distance = acceptance_m.map(|it| units::quantity(it, "m"));
+            let angle = acceptance_rad.map(|it| units::quantity(it, "rad"));
+            let near: Vec<_> = [distance, angle].into_iter().flatten().collect();
+            format!(
+                "{} waypoints, each to {}",
+                task.goal.waypoint_count().unwrap_or_default(),
+                near.join(" and ")
+            )
+        }
     }
 }
 

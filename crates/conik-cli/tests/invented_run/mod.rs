@@ -185,7 +185,9 @@ impl Invention {
                 goal: if self.waypoints > 0 {
                     GoalConfig::Waypoints {
                         waypoints_m: waypoints,
-                        acceptance_m: 0.02,
+                        waypoints_quaternion_wxyz: Vec::new(),
+                        acceptance_m: Some(0.02),
+                        acceptance_rad: None,
                         gain_per_s: 0.3,
                     }
                 } else {

@@ -79,19 +79,23 @@ fn fastest_along(direction: Vec3, experiment: &Experiment, kinematics: &Kinemati
     moved.map(|(entry, limit)| entry.abs() * limit).sum()
 }
 
-/// Where a position task wants the tool, with the name of each place.
+/// Where a task wants the tool, with the name of each place.
 pub(super) fn targets(scenario: &Scenario) -> Vec<(String, Vec3)> {
     let mut targets = Vec::new();
     let of_tool = scenario.tasks.iter();
     for task in of_tool.filter(|task| task.frames.is_tool_in_world()) {
         match (&task.kind, &task.goal) {
-            (TaskKind::Position, GoalConfig::Waypoints { waypoints_m, .. }) => {
+            (_, GoalConfig::Waypoints { waypoints_m, .. }) => {
                 for (i, &point) in waypoints_m.iter().enumerate() {
                     targets.push((
                         format!("waypoint {} of `{}`", i + 1, task.name),
                         point.into(),
                     ));
                 }
+            }
+            (TaskKind::Pose { target_m, .. }, _) => {
+                let target = rest(task, *target_m);
+                targets.extend(target.map(|it| (format!("the target of `{}`", task.name), it)));
             }
             (TaskKind::Position, GoalConfig::Desired { desired, .. }) => {
                 if let &[x, y, z] = desired.as_slice()

@@ -29,10 +29,7 @@ pub(super) const JOINT_SPEED: TaskType = TaskType {
     keys: &[&keys::JOINT],
     frames: &[],
     one_of: &[&keys::SPEED_DEG_PER_S, &keys::SPEED_RAD_PER_S],
-    goal: GoalShape::Vanishing {
-        size: 1,
-        has_gain: false,
-    },
+    goal: GoalShape::Own,
     read: |table, robot, found| {
         let joint = table
             .joint(&keys::JOINT, robot, found)

@@ -169,7 +169,7 @@ pub enum TaskKind {
     },
     /// Rotation vector from a desired orientation to that of the frame [rad]; dimension 3, zero is desired.
     Orientation {
-        /// The desired orientation, a quaternion of length 1, its real part first.
+        /// The desired orientation, or the first one, a quaternion of length 1, its real part first.
         desired_quaternion_wxyz: [f64; 4],
     },
     /// Length of that vector: the angle that is left to turn [rad].
@@ -179,9 +179,9 @@ pub enum TaskKind {
     },
     /// Position and orientation of the frame against desired ones [m, rad]; dimension 6, zero is desired.
     Pose {
-        /// The desired position [m].
+        /// The desired position, or the first one [m].
         target_m: [f64; 3],
-        /// The desired orientation, a quaternion of length 1, its real part first.
+        /// The desired orientation, or the first one, a quaternion of length 1, its real part first.
         desired_quaternion_wxyz: [f64; 4],
     },
     /// Angle between an axis of the frame and a direction [rad].
@@ -281,12 +281,19 @@ pub enum Axis {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(untagged)]
 pub enum GoalConfig {
-    /// Equality task: visit points one after the other.
+    /// Equality task: visit points, orientations or poses one after the other.
     Waypoints {
-        /// The points in the base frame [m].
+        /// The points [m]; none where only orientations count.
         waypoints_m: Vec<[f64; 3]>,
-        /// At this distance [m] the next point is taken.
-        acceptance_m: f64,
+        /// The orientations, as many, quaternions of length 1, real part first; none where only points count.
+        #[serde(default, skip_serializing_if = "Vec::is_empty")]
+        waypoints_quaternion_wxyz: Vec<[f64; 4]>,
+        /// At this distance [m] the next one is taken.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        acceptance_m: Option<f64>,
+        /// At this angle [rad] the next one is taken.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        acceptance_rad: Option<f64>,
         /// Λ [1/s].
         gain_per_s: f64,
     },
@@ -316,6 +323,18 @@ pub enum GoalConfig {
 }
 
 impl GoalConfig {
+    /// How many waypoints it has, if it has any.
+    pub fn waypoint_count(&self) -> Option<usize> {
+        match self {
+            Self::Waypoints {
+                waypoints_m,
+                waypoints_quaternion_wxyz,
+                ..
+            } => Some(waypoints_m.len().max(waypoints_quaternion_wxyz.len())),
+            _ => None,
+        }
+    }
+
     /// Λ [1/s], where the goal has one.
     pub fn gain_per_s(&self) -> Option<f64> {
         match self {

@@ -9,6 +9,7 @@ use super::read::Surroundings;
 use super::table::Table;
 use super::task_types::{GoalShape, TaskType};
 use super::value::shown;
+use super::waypoints::{Counts, ONE_PLACE, Places, WAYPOINTS, first_of};
 
 pub(super) fn read(
     table: &Table,
@@ -18,19 +19,12 @@ pub(super) fn read(
 ) -> Option<GoalConfig> {
     let gain = read_gain(table, surroundings.rate_hz, found);
     match task_type.goal {
-        GoalShape::Point => read_point(table, gain, found),
-        GoalShape::Vanishing { size, has_gain } => {
-            let gain_per_s = if has_gain {
-                needs_gain(table, gain, found)?
-            } else {
-                // Of no error any gain makes nothing.
-                1.0
-            };
-            Some(GoalConfig::Desired {
-                desired: vec![0.0; size],
-                gain_per_s,
-            })
-        }
+        GoalShape::Place(counts) => read_place(table, counts, gain, found),
+        // Of no error any gain makes nothing.
+        GoalShape::Own => Some(GoalConfig::Desired {
+            desired: vec![0.0],
+            gain_per_s: 1.0,
+        }),
         GoalShape::Posture => {
             let desired = posture::desired(table, surroundings.robot, found);
             let gain_per_s = needs_gain(table, gain, found);
@@ -93,59 +87,32 @@ fn needs_gain(table: &Table, gain: Gain, found: &mut Mistakes) -> Option<f64> {
     gain.flatten()
 }
 
-fn read_point(table: &Table, gain: Gain, found: &mut Mistakes) -> Option<GoalConfig> {
-    let waypoints = table.points(&keys::WAYPOINTS_M, found);
-    let target = table.vector(&keys::TARGET_M, found);
-    let acceptance = table.number(&keys::ACCEPTANCE_M, found);
-    let has_other_goal = [&keys::DESIRED, &keys::MIN, &keys::MAX]
-        .into_iter()
-        .any(|key| table.has(key));
-    match (waypoints.is_present(), target.is_present()) {
-        (true, true) => {
-            contradiction(
+fn read_place(
+    table: &Table,
+    counts: Counts,
+    gain: Gain,
+    found: &mut Mistakes,
+) -> Option<GoalConfig> {
+    let is_point = !counts.orientation;
+    if is_point
+        && first_of(table, WAYPOINTS)
+            .or(first_of(table, ONE_PLACE))
+            .is_none()
+    {
+        // Where another type's goal stands, that has been noted as what is wrong.
+        let other_goals = [&keys::DESIRED, &keys::MIN, &keys::MAX];
+        if first_of(table, &other_goals).is_none() {
+            no_goal(
                 table,
-                &keys::TARGET_M,
-                "both `waypoints_m` and `target_m` are given",
+                "give `waypoints_m` and `acceptance_m`, or `target_m`; and `gain_per_s`",
                 found,
             );
-            None
         }
-        (true, false) => {
-            let gain_per_s = needs_gain(table, gain, found);
-            let acceptance_m = acceptance.required(table, found);
-            Some(GoalConfig::Waypoints {
-                waypoints_m: waypoints.given()?,
-                acceptance_m: acceptance_m?,
-                gain_per_s: gain_per_s?,
-            })
-        }
-        (false, true) => {
-            let gain_per_s = needs_gain(table, gain, found);
-            if acceptance.is_present() {
-                found.add(
-                    table.span_of(&keys::ACCEPTANCE_M),
-                    table.path_of(&keys::ACCEPTANCE_M),
-                    "`acceptance_m` says when the next waypoint is taken, and there are none",
-                    "remove it, or give `waypoints_m` in place of `target_m`",
-                );
-            }
-            Some(GoalConfig::Desired {
-                desired: target.given()?.to_vec(),
-                gain_per_s: gain_per_s?,
-            })
-        }
-        (false, false) => {
-            // Where another type's goal stands, that has been noted as what is wrong.
-            if !has_other_goal {
-                no_goal(
-                    table,
-                    "give `waypoints_m` and `acceptance_m`, or `target_m`; and `gain_per_s`",
-                    found,
-                );
-            }
-            None
-        }
+        return None;
     }
+    let places = Places::read(table, counts, found);
+    let gain_per_s = needs_gain(table, gain, found);
+    Some(places?.goal(counts, gain_per_s?))
 }
 
 fn read_scalar(

@@ -85,15 +85,15 @@ fn check_one_has_waypoints(tasks: &[ReadTask], found: &mut Mistakes) {
     let Some((first, _)) = with_waypoints.next() else {
         return;
     };
-    for (task, span) in with_waypoints {
+    for (task, (span, key)) in with_waypoints {
         found.add(
             span,
-            place::join(&task.path, keys::WAYPOINTS_M.name),
+            place::join(&task.path, key.name),
             format!(
                 "{} has waypoints already, and only one task can",
                 first.path
             ),
-            "give this one `target_m`",
+            "give this one a single place: `target_m`, or a desired orientation",
         );
     }
 }

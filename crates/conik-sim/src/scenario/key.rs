@@ -44,6 +44,7 @@ impl Key {
             | Holds::Vector(range)
             | Holds::Points(range)
             | Holds::Quaternion(range)
+            | Holds::Quaternions(range)
             | Holds::ChoiceOrNumber(_, range) => range,
             _ => Range::FINITE,
         }
@@ -85,6 +86,8 @@ pub(super) enum Holds {
     Points(Range),
     /// Four numbers.
     Quaternion(Range),
+    /// One or more lists of four numbers.
+    Quaternions(Range),
     /// 1-based number of a joint, or its name.
     Joint,
     /// Some joints, each by its number or its name.
@@ -134,6 +137,7 @@ impl Holds {
             Self::Vector(_) => "a list of three numbers",
             Self::Points(_) => "a list of points, each of three numbers",
             Self::Quaternion(_) => "a list of four numbers",
+            Self::Quaternions(_) => "a list of lists, each of four numbers",
             Self::Joint => "the number of a joint or its name",
             Self::Joints => "a list of joints, each by its number or its name",
             Self::ChoiceOrNumber(..) => "text in quotes, or a number",

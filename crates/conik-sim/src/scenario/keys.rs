@@ -143,17 +143,38 @@ pub(super) const TYPE: Key = Key::new(
 /// What can be asked of a task with one value.
 pub(super) const SCALAR_GOAL: &[&Key] =
     &[&DESIRED, &MIN, &MAX, &RECOVERY_PER_S, &GAIN_PER_S, &DAMPING];
-/// What is asked of a task that has its desired value among its own keys.
-pub(super) const VANISHING_GOAL: &[&Key] = &[&GAIN_PER_S, &DAMPING];
-/// The same where there is no error that a gain could act on.
-pub(super) const VANISHING_GOAL_WITHOUT_GAIN: &[&Key] = &[&DAMPING];
+/// What is asked of a task that has it among its own keys, and no error that a gain could act on.
+pub(super) const OWN_GOAL: &[&Key] = &[&DAMPING];
 /// What can be asked of several joints.
 pub(super) const POSTURE_GOAL: &[&Key] = &[&DESIRED_DEG, &DESIRED_RAD, &GAIN_PER_S, &DAMPING];
-/// What can be asked of a task whose value is a point.
+/// What can be asked of a task whose value is a point, an orientation, or both.
 pub(super) const POINT_GOAL: &[&Key] = &[
     &WAYPOINTS_M,
     &ACCEPTANCE_M,
     &TARGET_M,
+    &GAIN_PER_S,
+    &DAMPING,
+];
+pub(super) const ORIENTATION_GOAL: &[&Key] = &[
+    &WAYPOINTS_RPY_DEG,
+    &WAYPOINTS_QUATERNION_WXYZ,
+    &ACCEPTANCE_DEG,
+    &ACCEPTANCE_RAD,
+    &DESIRED_RPY_DEG,
+    &DESIRED_QUATERNION_WXYZ,
+    &GAIN_PER_S,
+    &DAMPING,
+];
+pub(super) const POSE_GOAL: &[&Key] = &[
+    &WAYPOINTS_M,
+    &WAYPOINTS_RPY_DEG,
+    &WAYPOINTS_QUATERNION_WXYZ,
+    &ACCEPTANCE_M,
+    &ACCEPTANCE_DEG,
+    &ACCEPTANCE_RAD,
+    &TARGET_M,
+    &DESIRED_RPY_DEG,
+    &DESIRED_QUATERNION_WXYZ,
     &GAIN_PER_S,
     &DAMPING,
 ];
@@ -192,6 +213,35 @@ pub(super) const ACCEPTANCE_M: Key = Key::new(
     "At this distance to a waypoint the next one is taken",
     Holds::Number(Range::positive(Range::SANE.most)),
     "0.02",
+);
+pub(super) const WAYPOINTS_RPY_DEG: Key = Key::new(
+    "waypoints_rpy_deg",
+    "deg",
+    "Equality task: orientations to visit one after the other, as roll, pitch and yaw; of a pose one for \
+     each point",
+    Holds::Points(Range::SANE),
+    "[[180, 0, 90], [180, 0, 0]]",
+);
+pub(super) const WAYPOINTS_QUATERNION_WXYZ: Key = Key::new(
+    "waypoints_quaternion_wxyz",
+    "",
+    "The same as quaternions of any length but zero, their real parts first",
+    Holds::Quaternions(Range::FINITE),
+    "[[0, 1, 0, 0], [0, 1, 1, 0]]",
+);
+pub(super) const ACCEPTANCE_DEG: Key = Key::new(
+    "acceptance_deg",
+    "deg",
+    "With so much to turn to a waypoint the next one is taken; of a pose the distance must be met too",
+    Holds::Number(Range::positive(180.0)),
+    "3",
+);
+pub(super) const ACCEPTANCE_RAD: Key = Key::new(
+    "acceptance_rad",
+    "rad",
+    "The same in radians",
+    Holds::Number(Range::positive(std::f64::consts::PI)),
+    "0.05",
 );
 pub(super) const TARGET_M: Key = Key::new(
     "target_m",

@@ -53,6 +53,7 @@ mod ur_keys;
 mod urdf_file;
 mod urdf_shapes;
 mod value;
+mod waypoints;
 mod write;
 mod written;
 

@@ -9,6 +9,7 @@ use super::read::Surroundings;
 use super::table::Table;
 use super::task_types::{GoalShape, TaskType};
 use super::value::shown;
+use super::waypoints::{WAYPOINTS, first_of};
 
 /// Notes a speed of what the task does not have, and one that takes it out of reach.
 pub(super) fn check(
@@ -20,13 +21,21 @@ pub(super) fn check(
 ) {
     let has = |key: &Key| table.has(key);
     match task_type.goal {
-        GoalShape::Point if has(&keys::VELOCITY_M_PER_S) && has(&keys::WAYPOINTS_M) => refuse(
-            table,
-            &keys::VELOCITY_M_PER_S,
-            "it says how a target moves, and waypoints stay where they are",
-            "remove it, or give `target_m` in place of `waypoints_m` and `acceptance_m`",
-            found,
-        ),
+        GoalShape::Place(_) => {
+            let speed = first_of(table, task_type.moves);
+            if let (Some(speed), Some(waypoints)) = (speed, first_of(table, WAYPOINTS)) {
+                refuse(
+                    table,
+                    speed,
+                    "it says how what is asked for moves, and waypoints stay where they are",
+                    &format!(
+                        "remove it, or give one place in place of `{}`",
+                        waypoints.name
+                    ),
+                    found,
+                );
+            }
+        }
         GoalShape::Scalar(..)
             if has(&keys::DESIRED_PER_S)
                 && !has(&keys::DESIRED)

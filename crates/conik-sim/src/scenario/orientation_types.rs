@@ -6,20 +6,27 @@ use super::config::TaskKind;
 use super::keys;
 use super::orientation;
 use super::task_types::{GoalShape, PLAIN, TaskType};
+use super::waypoints::{Counts, Places};
+
+const ORIENTATION_COUNTS: Counts = Counts {
+    point: false,
+    orientation: true,
+};
+const POSE_COUNTS: Counts = Counts {
+    point: true,
+    orientation: true,
+};
 
 pub(super) const ORIENTATION: TaskType = TaskType {
     name: "orientation",
     about: "Orientation against a desired one: the rotation vector between them [rad]; cannot be a set, \
             \"orientation_angle\" can",
-    one_of: &[&keys::DESIRED_RPY_DEG, &keys::DESIRED_QUATERNION_WXYZ],
     moves: keys::TURNS,
-    goal: GoalShape::Vanishing {
-        size: 3,
-        has_gain: true,
-    },
-    read: |table, _, found| {
+    goal: GoalShape::Place(ORIENTATION_COUNTS),
+    read: |table, _, _| {
+        let (_, desired_quaternion_wxyz) = Places::known(table, ORIENTATION_COUNTS)?.first();
         Some(TaskKind::Orientation {
-            desired_quaternion_wxyz: orientation::read(table, found)?,
+            desired_quaternion_wxyz,
         })
     },
     ..PLAIN
@@ -43,19 +50,13 @@ pub(super) const POSE: TaskType = TaskType {
     name: "pose",
     about: "Position [m] and orientation [rad] against desired ones, a metre counting as much as a radian; \
             cannot be a set",
-    keys: &[&keys::TARGET_M],
-    one_of: &[&keys::DESIRED_RPY_DEG, &keys::DESIRED_QUATERNION_WXYZ],
     moves: keys::MOVES_AND_TURNS,
-    goal: GoalShape::Vanishing {
-        size: 6,
-        has_gain: true,
-    },
-    read: |table, _, found| {
-        let target_m = table.vector(&keys::TARGET_M, found).required(table, found);
-        let desired_quaternion_wxyz = orientation::read(table, found);
+    goal: GoalShape::Place(POSE_COUNTS),
+    read: |table, _, _| {
+        let (target_m, desired_quaternion_wxyz) = Places::known(table, POSE_COUNTS)?.first();
         Some(TaskKind::Pose {
-            target_m: target_m?,
-            desired_quaternion_wxyz: desired_quaternion_wxyz?,
+            target_m,
+            desired_quaternion_wxyz,
         })
     },
     ..PLAIN

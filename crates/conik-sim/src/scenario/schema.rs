@@ -9,6 +9,7 @@ use super::keys;
 use super::names;
 use super::robots::known_robots;
 use super::task_types::{self, GoalShape, TaskType};
+use super::waypoints::{ACCEPTANCE, Counts, ONE_PLACE, WAYPOINTS};
 
 /// The JSON Schema (draft-07) of the scenario file as this version reads it.
 ///
@@ -100,8 +101,9 @@ fn holds(key: &Key) -> Value {
         }
         Holds::Vector(range) => vector(range),
         Holds::Points(range) => json!({ "type": "array", "items": vector(range), "minItems": 1 }),
-        Holds::Quaternion(range) => {
-            json!({ "type": "array", "items": number(range), "minItems": 4, "maxItems": 4 })
+        Holds::Quaternion(range) => quaternion(range),
+        Holds::Quaternions(range) => {
+            json!({ "type": "array", "items": quaternion(range), "minItems": 1 })
         }
         Holds::Joint => joint(),
         Holds::Joints => {
@@ -169,6 +171,10 @@ fn number(range: Range) -> Value {
 
 fn vector(range: Range) -> Value {
     json!({ "type": "array", "items": number(range), "minItems": 3, "maxItems": 3 })
+}
+
+fn quaternion(range: Range) -> Value {
+    json!({ "type": "array", "items": number(range), "minItems": 4, "maxItems": 4 })
 }
 
 fn joint() -> Value {
@@ -267,18 +273,8 @@ fn task_of_type(task_type: &TaskType) -> Value {
         "description": task_type.about,
     });
     let goals = match task_type.goal {
-        GoalShape::Point => json!([
-            { "required": ["waypoints_m", "acceptance_m", "gain_per_s"], "not": { "anyOf": [
-                { "required": ["target_m"] },
-                { "required": ["velocity_m_per_s"] },
-            ] } },
-            { "required": ["target_m", "gain_per_s"], "not": { "anyOf": [
-                { "required": ["waypoints_m"] },
-                { "required": ["acceptance_m"] },
-            ] } },
-        ]),
-        GoalShape::Vanishing { has_gain: true, .. } => json!([{ "required": ["gain_per_s"] }]),
-        GoalShape::Vanishing { .. } => json!([{}]),
+        GoalShape::Place(counts) => places(task_type, counts),
+        GoalShape::Own => json!([{}]),
         GoalShape::Posture => json!([
             { "required": ["desired_deg", "gain_per_s"] },
             { "required": ["desired_rad", "gain_per_s"] },
@@ -318,6 +314,33 @@ fn task_of_type(task_type: &TaskType) -> Value {
         restrict(&mut schema["properties"], least, most);
     }
     schema
+}
+
+/// Waypoints, or one place, which may move.
+fn places(task_type: &TaskType, counts: Counts) -> Value {
+    let visits = [ACCEPTANCE, WAYPOINTS].concat();
+    let stays = [ONE_PLACE, task_type.moves].concat();
+    let mut alternatives = Vec::new();
+    for (point, turns, others) in [
+        (
+            ["waypoints_m", "acceptance_m"].as_slice(),
+            [&WAYPOINTS[1..], &ACCEPTANCE[1..]],
+            stays,
+        ),
+        (["target_m"].as_slice(), [&ONE_PLACE[1..], &[]], visits),
+    ] {
+        let mut required = vec![keys::GAIN_PER_S.name];
+        let mut rules = vec![json!({ "not": { "anyOf": each_alone(&others) } })];
+        if counts.point {
+            required.extend(point);
+        }
+        if counts.orientation {
+            let ways = turns.into_iter().filter(|ways| !ways.is_empty());
+            rules.extend(ways.map(|ways| json!({ "oneOf": each_alone(ways) })));
+        }
+        alternatives.push(json!({ "required": required, "allOf": rules }));
+    }
+    json!(alternatives)
 }
 
 /// For each key a rule that it is there.

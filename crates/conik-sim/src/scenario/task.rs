@@ -18,6 +18,7 @@ use super::shape_distance;
 use super::suggest::nearest;
 use super::table::{Table, unknown_name};
 use super::task_types::{self, GoalShape, TaskType};
+use super::waypoints::{Counts, WAYPOINTS, first_of};
 
 /// What was found in one `[[task]]`.
 #[derive(Debug)]
@@ -38,8 +39,8 @@ pub(super) struct ReadTask {
     pub(super) recovery: Option<Range<usize>>,
     /// Where its damping stands.
     pub(super) damping: Option<Range<usize>>,
-    /// Where its waypoints stand.
-    pub(super) waypoints: Option<Range<usize>>,
+    /// Where its waypoints stand, and under which key.
+    pub(super) waypoints: Option<(Range<usize>, &'static Key)>,
 }
 
 /// What a task is in the hierarchy.
@@ -96,7 +97,7 @@ pub(super) fn read(table: &Table, surroundings: Surroundings, found: &mut Mistak
         has_gain: table.has(&keys::GAIN_PER_S),
         recovery: place_of(&table, &keys::RECOVERY_PER_S),
         damping: place_of(&table, &keys::DAMPING),
-        waypoints: place_of(&table, &keys::WAYPOINTS_M),
+        waypoints: first_of(&table, WAYPOINTS).map(|key| (table.span_of(key), key)),
         name,
         header: table.header.clone(),
         path: table.path,
@@ -156,7 +157,9 @@ fn refuse_unknown_keys(table: &Table, task_type: Option<&'static TaskType>, foun
         let owner = task_types::ALL
             .iter()
             .find(|other| other.all_keys().any(|key| key.name == name))?;
-        let (this, is_point) = (task_type.name, task_type.goal == GoalShape::Point);
+        let this = task_type.name;
+        let is_point =
+            matches!(task_type.goal, GoalShape::Place(Counts { orientation, .. }) if !orientation);
         let is_scalar = matches!(task_type.goal, GoalShape::Scalar(..));
         Some(match name {
             "min" | "max" | "recovery_per_s" if !is_scalar && !is_point => (

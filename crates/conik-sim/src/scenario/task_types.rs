@@ -10,6 +10,7 @@ use super::keys;
 use super::mistake::Mistakes;
 use super::robots::RobotFacts;
 use super::table::Table;
+use super::waypoints::Counts;
 use super::{arm_types, orientation_types, shape_distance};
 
 /// A type of task.
@@ -38,17 +39,12 @@ pub(super) struct TaskType {
 /// What can be asked of a type of task.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum GoalShape {
-    /// A point: visited, never a set.
-    Point,
+    /// A point, an orientation or both: one place, or waypoints to visit; never a set.
+    Place(Counts),
     /// One value that is always between these: desired, or kept in a set.
     Scalar(f64, f64),
-    /// So many values that are desired to be zero; never a set.
-    Vanishing {
-        /// Number of values.
-        size: usize,
-        /// Whether there is an error that a gain acts on.
-        has_gain: bool,
-    },
+    /// What its own keys say, and no error that a gain acts on; never a set.
+    Own,
     /// A position for each of some joints; never a set.
     Posture,
 }
@@ -57,10 +53,13 @@ impl TaskType {
     /// The keys that state its goal.
     pub(super) fn goal_keys(&self) -> &'static [&'static Key] {
         match self.goal {
-            GoalShape::Point => keys::POINT_GOAL,
+            GoalShape::Place(Counts {
+                orientation: false, ..
+            }) => keys::POINT_GOAL,
+            GoalShape::Place(Counts { point: false, .. }) => keys::ORIENTATION_GOAL,
+            GoalShape::Place(_) => keys::POSE_GOAL,
             GoalShape::Scalar(..) => keys::SCALAR_GOAL,
-            GoalShape::Vanishing { has_gain: true, .. } => keys::VANISHING_GOAL,
-            GoalShape::Vanishing { .. } => keys::VANISHING_GOAL_WITHOUT_GAIN,
+            GoalShape::Own => keys::OWN_GOAL,
             GoalShape::Posture => keys::POSTURE_GOAL,
         }
     }
@@ -113,7 +112,10 @@ pub(super) const ALL: &[TaskType] = &[
         name: "position",
         about: "Position of the tool, or of `frame` [m]; cannot be a set",
         moves: keys::MOVES,
-        goal: GoalShape::Point,
+        goal: GoalShape::Place(Counts {
+            point: true,
+            orientation: false,
+        }),
         read: |_, _, _| Some(TaskKind::Position),
         ..PLAIN
     },

@@ -173,19 +173,37 @@ fn write_task(task: &TaskConfig, file: &mut Lines) {
     file.line(keys::NAME.name, &text(&task.name));
     let (type_name, values) = written(&task.kind);
     file.line(keys::TYPE.name, &text(type_name));
-    let own = values.into_iter().chain(task.frames.written());
+    // Where it goes first is the first of its waypoints.
+    let visits = task.goal.waypoint_count().is_some();
+    let own = values.into_iter().filter(|_| !visits);
+    let own = own.chain(task.frames.written());
     for (name, value) in own.chain(motion::written(&task.motion)) {
         file.line(name, &value);
     }
     match &task.goal {
         GoalConfig::Waypoints {
             waypoints_m,
+            waypoints_quaternion_wxyz,
             acceptance_m,
+            acceptance_rad,
             gain_per_s,
         } => {
-            let points = list(waypoints_m.iter().map(|point| vector(point)));
-            file.line(keys::WAYPOINTS_M.name, &points);
-            file.number(&keys::ACCEPTANCE_M, *acceptance_m);
+            if !waypoints_m.is_empty() {
+                let points = list(waypoints_m.iter().map(|point| vector(point)));
+                file.line(keys::WAYPOINTS_M.name, &points);
+            }
+            if !waypoints_quaternion_wxyz.is_empty() {
+                let turns = list(waypoints_quaternion_wxyz.iter().map(|turn| vector(turn)));
+                file.line(keys::WAYPOINTS_QUATERNION_WXYZ.name, &turns);
+            }
+            for (key, acceptance) in [
+                (&keys::ACCEPTANCE_M, acceptance_m),
+                (&keys::ACCEPTANCE_RAD, acceptance_rad),
+            ] {
+                if let Some(acceptance) = acceptance {
+                    file.number(key, *acceptance);
+                }
+            }
             file.number(&keys::GAIN_PER_S, *gain_per_s);
         }
         GoalConfig::Desired {
