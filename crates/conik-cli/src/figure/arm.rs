@@ -1,7 +1,7 @@
 //! Panel: the arm in the scene at a few telling times, with what it keeps away from and where it looks.
 
 use conik::{Kinematics, Robot, Shape};
-use conik_sim::scenario::{RobotSource, TaskKind};
+use conik_sim::scenario::RobotSource;
 
 use super::arm_parts::Arm;
 use super::camera::Vector;
@@ -139,28 +139,12 @@ fn axes() -> [conik::Vec3; 3] {
     [world.x_axis, world.y_axis, world.z_axis]
 }
 
-/// The shapes on links that are kept away from something, and the links.
-fn shells(run: &Run) -> Vec<(String, Shape)> {
-    let scenario = &run.summary().settings.scenario;
-    let shapes = scenario.collision.shapes.iter();
-    let mut shells: Vec<_> = shapes
-        .map(|it| (it.link.clone(), it.geometry.shape()))
-        .collect();
-    for task in &scenario.tasks {
-        if let TaskKind::Shapes(pair) = &task.kind {
-            shells.push((pair.link.clone(), pair.shape.shape()));
-            let other = pair.other_link.clone();
-            shells.extend(other.map(|link| (link, pair.other.shape())));
-        }
-    }
-    // Of several pairs with one shape, one drawing.
-    let mut unique: Vec<(String, Shape)> = Vec::new();
-    for shell in shells {
-        if !unique.contains(&shell) {
-            unique.push(shell);
-        }
-    }
-    unique
+/// The shapes on links, and the links.
+fn shells(run: &Run) -> Vec<(&str, Shape)> {
+    let shapes = run.summary().settings.scenario.collision.shapes.iter();
+    shapes
+        .map(|it| (it.link.as_str(), it.geometry.shape()))
+        .collect()
 }
 
 fn describe(moments: &[Moment]) -> String {

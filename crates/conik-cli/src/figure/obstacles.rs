@@ -79,9 +79,17 @@ impl Surroundings {
         }
         let collision = &run.summary().settings.scenario.collision;
         for obstacle in &collision.obstacles {
+            let measures_it = |set: &str| {
+                let task = run.tasks().iter().find(|task| task.name == set);
+                task.is_some_and(|task| match &task.kind {
+                    TaskKind::ShapeDistance { shapes } => shapes.contains(&obstacle.name),
+                    _ => false,
+                })
+            };
+            // A set of the obstacle's own has the name of a shape, and then its.
             let of_it = |set: &str| {
                 let shape = set.strip_suffix(obstacle.name.as_str());
-                shape.is_some_and(|shape| shape.ends_with('/'))
+                shape.is_some_and(|shape| shape.ends_with('/')) || measures_it(set)
             };
             let shape = obstacle.geometry.shape();
             let tint = tint(run, of_it);

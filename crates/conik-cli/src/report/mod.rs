@@ -17,6 +17,7 @@ mod cycles;
 pub mod monitors;
 mod properties;
 mod rotation;
+mod table;
 mod tables;
 pub mod units;
 mod verdict;

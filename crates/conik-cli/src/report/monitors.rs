@@ -5,7 +5,7 @@ use std::fmt::Write;
 use conik_sim::monitors::{JointMonitor, Monitors, Sighting, Verdict};
 use conik_sim::summary::Summary;
 
-use super::{tables, units};
+use super::{table, units};
 use crate::figure::Run;
 use crate::figure::lettering::{number, seconds};
 use crate::figure::markup::Escaped;
@@ -154,7 +154,7 @@ pub fn section(run: &Run) -> String {
         ("Task", false),
     ];
     let joints = joints(run, &monitors.joints);
-    tables::section("What else was watched", &columns, &body, &joints)
+    table::section("What else was watched", &columns, &body, &joints)
 }
 
 /// Which joint's limits bound, and for how long.
@@ -197,7 +197,7 @@ fn joints(run: &Run, joints: &[JointMonitor]) -> String {
         (&fastest, true),
         (&hardest, true),
     ];
-    let table = tables::table(&columns, &body);
+    let table = table::table(&columns, &body);
     format!(
         "<h3>Limits of the joints: for how long they bound</h3>\n{table}<p class=\"note\">Exceeded for a \
          set: how many times its limit a joint accelerated, because a set could not have been kept \

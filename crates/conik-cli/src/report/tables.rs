@@ -7,6 +7,7 @@ use std::fmt::Write;
 use conik_sim::scenario::{GoalConfig, TaskConfig, TaskKind};
 use conik_sim::summary::{Summary, TaskSummary};
 
+use super::table::{section, table};
 use super::units;
 use crate::figure::lettering::{number, seconds};
 use crate::figure::markup::Escaped;
@@ -33,10 +34,10 @@ pub fn tasks(run: &Run) -> String {
             body,
             "<tr><td class=\"number\">{}</td><th scope=\"row\">{}</th><td>{}</td><td>{}</td>\
              <td class=\"number\">{}</td><td class=\"number\">{entered}</td>\
-             <td class=\"number\">{}</td><td class=\"number\">{}</td>\
+             <td class=\"number breaks\">{}</td><td class=\"number\">{}</td>\
              <td class=\"number\">{}</td></tr>",
             nth + 1,
-            Escaped(&task.name),
+            breakable(&task.name),
             Escaped(&kind(run, task)),
             goal(task, unit),
             units::optional(result.worst_violation, unit),
@@ -62,6 +63,12 @@ pub fn tasks(run: &Run) -> String {
         "<p class=\"note\">Crossing: how much further out, let go, the set would have been at \
          the end of a period, at most.</p>\n",
     )
+}
+
+/// A name that may be broken after each of its parts.
+fn breakable(name: &str) -> String {
+    let escaped = Escaped(name).to_string();
+    escaped.replace('/', "/<wbr>").replace('_', "_<wbr>")
 }
 
 /// For how long a set was active, and in how many stretches: `4.2 s, 3 times`.
@@ -136,8 +143,8 @@ fn point(coordinates: &[f64]) -> String {
 fn goal(task: &TaskConfig, unit: &str) -> String {
     match &task.goal {
         GoalConfig::Set { min, max, .. } => {
-            let min = min.map(|min| format!("≥ {}", units::limit(min, unit)));
-            let max = max.map(|max| format!("≤ {}", units::limit(max, unit)));
+            let min = min.map(|min| format!("≥\u{a0}{}", units::limit(min, unit)));
+            let max = max.map(|max| format!("≤\u{a0}{}", units::limit(max, unit)));
             [min, max]
                 .into_iter()
                 .flatten()
@@ -266,19 +273,15 @@ fn time(t_s: Option<f64>) -> String {
     t_s.map_or_else(|| "–".to_owned(), seconds)
 }
 
-pub fn section(title: &str, columns: &[(&str, bool)], body: &str, note: &str) -> String {
-    let table = table(columns, body);
-    format!("<section>\n<h2>{title}</h2>\n{table}{note}</section>\n")
-}
+#[cfg(test)]
+mod tests {
+    use super::*;
 
-pub fn table(columns: &[(&str, bool)], body: &str) -> String {
-    let mut head = String::new();
-    for &(name, is_number) in columns {
-        let class = if is_number { " class=\"number\"" } else { "" };
-        let _ = write!(head, "<th scope=\"col\"{class}>{name}</th>");
+    #[test]
+    fn names_break_between_their_parts() {
+        assert_eq!(
+            breakable("upper_arm/<post>"),
+            "upper_<wbr>arm/<wbr>&lt;post&gt;"
+        );
     }
-    format!(
-        "<div class=\"table\" tabindex=\"0\"><table>\n<thead><tr>{head}</tr></thead>\n<tbody>\n{body}</tbody>\n\
-         </table></div>\n"
-    )
 }
