@@ -1,12 +1,12 @@
 //! Which shapes are kept apart, and the sets that do it.
 
-use conik::{Frame, Kinematics, Robot, ShapeDistance};
+use conik::{Frame, Kinematics, MAX_TASKS, Robot, ShapeDistance};
 use serde::{Deserialize, Serialize};
 
 use crate::experiment::ExperimentError;
 use crate::scenario::{
-    Collision, Damping, Frames, Geometry, GoalConfig, LinkShape, Motion, Obstacle, TaskConfig,
-    TaskKind,
+    Collision, Damping, Frames, Geometry, GoalConfig, LinkShape, Motion, Obstacle, SelfCollision,
+    TaskConfig, TaskKind,
 };
 
 /// Two shapes that are kept apart.
@@ -40,53 +40,63 @@ impl ShapePair {
 
 impl Collision {
     /// A high-priority set for every two shapes that can meet: those of obstacles first, in the order of
-    /// the file, named `shape/obstacle`, then those of the robot with itself, named `shape/shape`.
-    pub(crate) fn tasks(&self, robot: &Robot) -> Vec<TaskConfig> {
+    /// the file, named `shape/obstacle`, then those of the robot with itself, named `shape/shape`. Of more
+    /// than a controller can have, there is one more than it can have.
+    pub(crate) fn tasks<'s>(&'s self, robot: &Robot) -> Vec<TaskConfig> {
         let links = Links::of(robot);
-        let mut tasks = Vec::new();
-        for obstacle in &self.obstacles {
-            let Some(distance_m) = obstacle.distance_m else {
-                continue;
-            };
-            for shape in &self.shapes {
-                if links.joints_between(&shape.link, None) == 0 {
-                    continue;
-                }
-                tasks.push(TaskConfig {
-                    motion: obstacle.motion,
-                    ..kept_apart(
-                        &shape.name,
-                        &obstacle.name,
-                        with_obstacle(shape, obstacle),
-                        distance_m,
-                    )
-                });
-            }
-        }
-        let Some(own) = &self.self_collision else {
-            return tasks;
-        };
-        for (i, shape) in self.shapes.iter().enumerate() {
-            for other in &self.shapes[i + 1..] {
-                let excluded = |group: &Vec<String>| {
-                    group.contains(&shape.name) && group.contains(&other.name)
-                };
-                // Neighbours touch where they are joined, and what is fixed to each other never moves.
-                if links.joints_between(&shape.link, Some(&other.link)) < 2
-                    || own.exclude.iter().any(excluded)
-                {
-                    continue;
-                }
-                tasks.push(kept_apart(
+        let on_frame = |shape: &'s LinkShape| Some((shape, robot.frame(&shape.link)?));
+        let shapes: Vec<(&LinkShape, Frame)> = self.shapes.iter().filter_map(on_frame).collect();
+        let obstacles = self.obstacles.iter();
+        let obstacles = obstacles.filter_map(|obstacle| Some((obstacle, obstacle.distance_m?)));
+        let with_obstacles = obstacles.flat_map(|(obstacle, distance_m)| {
+            let moved = shapes
+                .iter()
+                .filter(|(_, frame)| links.joints(*frame, Frame::World) > 0);
+            moved.map(move |(shape, _)| TaskConfig {
+                motion: obstacle.motion,
+                ..kept_apart(
                     &shape.name,
-                    &other.name,
-                    on_links(shape, other),
-                    own.distance_m,
-                ));
-            }
-        }
-        tasks
+                    &obstacle.name,
+                    with_obstacle(shape, obstacle),
+                    distance_m,
+                )
+            })
+        });
+        let with_itself = self
+            .self_collision
+            .iter()
+            .flat_map(|own| own_pairs(own, &links, &shapes));
+        with_obstacles
+            .chain(with_itself)
+            .take(MAX_TASKS + 1)
+            .collect()
     }
+}
+
+/// The sets that keep shapes on links apart.
+fn own_pairs<'a>(
+    own: &'a SelfCollision,
+    links: &'a Links,
+    shapes: &'a [(&LinkShape, Frame)],
+) -> impl Iterator<Item = TaskConfig> + 'a {
+    let pairs = shapes.iter().enumerate().flat_map(|(i, first)| {
+        let later = shapes[i + 1..].iter();
+        later.map(move |second| (first, second))
+    });
+    pairs.filter_map(|((shape, frame), (other, other_frame))| {
+        let excluded =
+            |group: &Vec<String>| group.contains(&shape.name) && group.contains(&other.name);
+        // Neighbours touch where they are joined, and what is fixed to each other never moves.
+        let is_kept = links.joints(*frame, *other_frame) >= 2 && !own.exclude.iter().any(excluded);
+        is_kept.then(|| {
+            kept_apart(
+                &shape.name,
+                &other.name,
+                on_links(shape, other),
+                own.distance_m,
+            )
+        })
+    })
 }
 
 /// A shape on a link and one in the world.
@@ -148,6 +158,10 @@ impl<'a> Links<'a> {
         let (Some(frame), Some(seen_from)) = (self.robot.frame(link), seen_from) else {
             return 0;
         };
+        self.joints(frame, seen_from)
+    }
+
+    fn joints(&self, frame: Frame, seen_from: Frame) -> usize {
         self.kinematics.motion_between(seen_from, frame).joints()
     }
 }

@@ -343,3 +343,19 @@ fn shapes_without_a_distance_and_obstacles_that_nothing_meets_are_refused() {
         "{found:?}"
     );
 }
+
+#[test]
+fn thousands_of_shapes_are_one_mistake() {
+    let ball = |i: usize| {
+        format!(
+            "[[obstacle]]\nname = \"b{i}\"\ntype = \"sphere\"\ncenter_m = [0, 0, 1]\nradius_m = 1\n\
+             distance_m = 0\n"
+        )
+    };
+    let many: String = (0..10_000).map(ball).collect();
+    let found = mistakes(&GOOD.replacen("[[task]]", &format!("{many}[[task]]"), 1));
+    assert_eq!(found.len(), 1, "{found:?}");
+    assert_eq!(found[0].what, "10002 are too many");
+    assert_eq!(found[0].key, "obstacle");
+    assert!(found[0].help.contains("at most 1000"), "{:?}", found[0]);
+}

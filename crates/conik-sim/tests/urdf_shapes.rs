@@ -184,3 +184,31 @@ fn mistakes_are_placed() {
         "{error}"
     );
 }
+
+/// The crane with so many more shapes on its tower.
+fn with_more(folder: &Folder, shapes: usize) {
+    let more =
+        "<collision><geometry><sphere radius=\"0.1\"/></geometry></collision>".repeat(shapes);
+    let link = "<link name=\"tower\">";
+    let text = URDF.replace(link, &format!("{link}{more}"));
+    fs::write(folder.0.join("crane.urdf"), text).expect("written");
+}
+
+#[test]
+fn of_many_shapes_all_have_names_and_of_too_many_none() {
+    let folder = Folder::new("many");
+    let apart = SCENARIO.replace("distance_m = 0.1\n", "");
+    with_more(&folder, 900);
+    let scenario = folder.load(&apart).expect("sound");
+    let names = names(&scenario);
+    assert_eq!(names[899], ("tower.900", "tower"));
+    assert_eq!(names[902], ("the_jib", "the jib"));
+    let kept = folder.load(SCENARIO).expect_err("too many sets");
+    assert!(kept.contains("shapes need at least 257"), "{kept}");
+    with_more(&folder, 50_000);
+    let refused = folder.load(&apart).expect_err("too many shapes");
+    assert!(
+        refused.contains("robot.shapes: ") && refused.contains("there are 50003"),
+        "{refused}"
+    );
+}

@@ -69,6 +69,11 @@ impl<'d> Element<'d> {
         }
     }
 
+    /// The byte of the text at which it begins.
+    pub(crate) fn start(&self) -> usize {
+        self.node.range().start
+    }
+
     /// Line and column, both from 1.
     pub(crate) fn place(&self) -> (usize, usize) {
         self.place_of(self.node.range().start)

@@ -47,14 +47,23 @@ pub fn shapes(text: &str) -> Result<DescribedShapes, UrdfError> {
     // What is odd about an origin is not what keeps a robot from its description.
     let mut notes = Notes::default();
     let mut described = DescribedShapes::default();
+    // Counted from one mesh to the next, of which there may be tens of thousands.
+    let (mut line, mut counted) = (1, 0);
     for link in robot.children().filter(|child| child.tag() == "link") {
         let name = link.required("name", "for example `<link name=\"forearm\"/>`")?;
         for collision in link.children().filter(|it| it.tag() == "collision") {
             let geometry = geometry(&collision)?;
             if geometry.tag() == "mesh" {
+                let start = geometry.start();
+                let lines_since = |text: &str| text.bytes().filter(|byte| *byte == b'\n').count();
+                line += document
+                    .input_text()
+                    .get(counted..start)
+                    .map_or(0, lines_since);
+                counted = start;
                 described.meshes.push(LinkMesh {
                     link: name.to_owned(),
-                    line: geometry.place().0,
+                    line,
                 });
                 continue;
             }

@@ -88,3 +88,12 @@ fn what_is_no_shape_is_refused_where_it_stands() {
         assert!(error.contains(expected), "{inside}: {error}");
     }
 }
+
+#[test]
+fn each_of_many_meshes_has_its_line() {
+    let mesh = "<collision><geometry>\n<mesh filename=\"a.stl\"/></geometry></collision>\n";
+    let described = shapes(&link(&mesh.repeat(30_000))).expect("sound");
+    let lines: Vec<usize> = described.meshes.iter().map(|mesh| mesh.line).collect();
+    let expected: Vec<usize> = (0..30_000).map(|i| 4 + 2 * i).collect();
+    assert_eq!(lines, expected);
+}

@@ -107,6 +107,10 @@ pub(super) fn read(
     check_pairs(&collision, file, found).then_some(collision)
 }
 
+/// A scenario may have so many shapes, and so many obstacles. Every two of them are looked at, and of far
+/// fewer can the distance be kept.
+pub(super) const MOST: usize = 1000;
+
 /// Reads every table of a list, all of them even if one is wrong.
 fn each<T>(
     file: &Table,
@@ -115,6 +119,12 @@ fn each<T>(
     mut read: impl FnMut(&Table, &mut Mistakes) -> Option<T>,
 ) -> Option<Vec<T>> {
     let tables = file.tables(key, found).or(Vec::new())?;
+    if let Some(first) = tables.get(MOST) {
+        let what = format!("{} are too many", tables.len());
+        let help = format!("give at most {MOST}");
+        found.add(first.header.clone(), key.name, what, help);
+        return None;
+    }
     let all: Vec<_> = tables.iter().map(|table| read(table, found)).collect();
     all.into_iter().collect()
 }

@@ -107,6 +107,10 @@ fn check_number(tasks: &[ReadTask], limits: usize, found: &mut Mistakes) {
     };
     let help = match limits {
         0 => format!("a scenario has at most {most}"),
+        MAX_TASKS.. => format!(
+            "the controller has at most {MAX_TASKS}, and position limits and shapes need at least \
+             {limits}: take shapes or obstacles away"
+        ),
         _ => format!(
             "the controller has at most {MAX_TASKS}, and {limits} of them keep position limits or \
              shapes apart: give at most {most}"

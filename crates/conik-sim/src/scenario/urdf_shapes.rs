@@ -1,7 +1,9 @@
 //! The shapes that a URDF file gives the links: `shapes` in `[robot]`.
 
+use std::collections::{HashMap, HashSet};
+
 use super::choice::Choice;
-use super::collision::{LinkShape, name_of};
+use super::collision::{LinkShape, MOST, name_of};
 use super::geometry::Geometry;
 use super::keys;
 use super::mistake::Mistakes;
@@ -61,23 +63,38 @@ pub(super) fn read(
             return None;
         }
     };
+    let count = own.len() + described.shapes.len();
+    if count > MOST {
+        let what = format!(
+            "{}: with its shapes there are {count}, which is too many",
+            file.urdf
+        );
+        let help = format!("give the links at most {MOST}, with `[[shape]]`");
+        mistaken(table, &keys::URDF_SHAPES, &what, &help, found);
+        return None;
+    }
     let mut meshes = described.meshes.iter().filter(|mesh| !has_own(&mesh.link));
     if let (UrdfShapes::Collision, Some(mesh)) = (wanted, meshes.next()) {
         refuse_meshes(table, file, mesh, meshes.count(), found);
         return None;
     }
     let mut shapes: Vec<LinkShape> = Vec::new();
+    let mut taken: HashSet<String> = own.iter().map(|shape| shape.name.clone()).collect();
+    // Of each link, the number that its next shape has.
+    let mut next: HashMap<String, usize> = HashMap::new();
     for shape in described.shapes {
         if has_own(&shape.link) {
             continue;
         }
         let name = name_of(&shape.link);
-        let numbered = (2..).map(|number| format!("{name}.{number}"));
-        let is_free = |name: &String| own.iter().chain(&shapes).all(|other| other.name != *name);
-        let free = std::iter::once(name.clone()).chain(numbered).find(is_free);
+        let number = next.entry(name.clone()).or_insert(1);
+        let mut free = name.clone();
+        while !taken.insert(free.clone()) {
+            *number += 1;
+            free = format!("{name}.{number}");
+        }
         shapes.push(LinkShape {
-            // There are finitely many names that are taken.
-            name: free.unwrap_or(name),
+            name: free,
             link: shape.link,
             geometry: Geometry::from(shape.shape),
         });
