@@ -22,7 +22,7 @@ pub fn heading(scenario: &Scenario, arm: &str) -> String {
         .as_ref()
         .map_or(String::new(), |title| format!("{title}\n"));
     let control = &scenario.control;
-    let model = scenario.robot.name();
+    let model = scenario.robot.label();
     format!(
         "{title}{model} on {arm}\n{} s at {} Hz, {}\n",
         control.duration_s,

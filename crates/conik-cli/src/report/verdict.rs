@@ -57,7 +57,7 @@ fn sentence(run: &Run) -> String {
         "{end} after {} of {} on {arm}, robot {}, at {} Hz. {arrivals}",
         seconds(summary.ended_at_s),
         seconds(control.duration_s),
-        Escaped(settings.scenario.robot.name()),
+        Escaped(settings.scenario.robot.label()),
         number(control.rate_hz, 4),
     )
 }

@@ -39,6 +39,17 @@ fn check_shows_joints_in_their_units_and_notes() {
 }
 
 #[test]
+fn a_run_is_headed_with_the_name_of_the_file() {
+    let folder = empty_folder("urdf heading");
+    let scenario = repository().join(SCENARIO);
+    let arguments = format!("run {} --robot ideal --out .", scenario.display());
+    let said = say(&folder, &arguments).stdout;
+    assert!(said.contains("\nrail-arm.urdf on ideal arm"), "{said}");
+    let report = fs::read_to_string(folder.join("report.html")).unwrap();
+    assert!(report.contains("robot rail-arm.urdf, at 250 Hz"));
+}
+
+#[test]
 fn mistakes_in_the_file_are_shown_with_its_own_line() {
     let folder = empty_folder("urdf mistake");
     let urdf = fs::read_to_string(repository().join("robots/rail-arm.urdf")).unwrap();

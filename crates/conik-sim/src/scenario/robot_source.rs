@@ -1,5 +1,6 @@
 //! What describes the robot: a built-in model or a URDF file, and where it stands.
 
+use std::ffi::OsStr;
 use std::path::Path;
 
 use conik::{Frame, Pose, Robot, RobotError, Vec3};
@@ -93,6 +94,17 @@ impl RobotConfig {
         match &self.source {
             RobotSource::Model { model } => model,
             RobotSource::Urdf(file) => &file.urdf,
+        }
+    }
+
+    /// The name of the model, or that of the URDF file without its folders: a label for people.
+    pub fn label(&self) -> &str {
+        match &self.source {
+            RobotSource::Model { model } => model,
+            RobotSource::Urdf(file) => {
+                let name = Path::new(&file.urdf).file_name();
+                name.and_then(OsStr::to_str).unwrap_or(&file.urdf)
+            }
         }
     }
 
