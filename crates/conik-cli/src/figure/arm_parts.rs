@@ -6,13 +6,12 @@ use conik::{
 };
 
 use super::camera::Vector;
+use super::palette::AXES;
 
 /// Links.
 const LINK: &str = "#74879b";
 /// Joints and the base.
 const JOINT: &str = "#16304d";
-/// The axes of the tool: x, y and z.
-const AXES: [&str; 3] = ["#d1242f", "#1a7f37", "#0550ae"];
 
 /// The robot, and what of it is drawn.
 #[derive(Debug)]

@@ -13,6 +13,9 @@ pub const LIMIT: &str = "#57606a";
 /// Faults.
 pub const ALARM: &str = "#b3261e";
 
+/// The axes of a frame: x, y and z.
+pub const AXES: [&str; 3] = ["#d1242f", "#1a7f37", "#0550ae"];
+
 /// The yellow of Okabe and Ito is left out: on white it is too faint for a line.
 const OKABE_ITO: [&str; 6] = [
     "#D55E00", "#0072B2", "#009E73", "#CC79A7", "#E69F00", "#56B4E9",

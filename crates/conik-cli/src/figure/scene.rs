@@ -1,6 +1,6 @@
 //! What is drawn of the space around the arm: path, obstacles, waypoints, and the floor below them.
 
-use conik::{Shape, Vec3};
+use conik::{Pose, Shape, Vec3};
 use conik_sim::scenario::{GoalConfig, TaskConfig, TaskKind};
 
 use super::axis::nice_step;
@@ -47,6 +47,8 @@ pub struct Target {
     pub point: Vector,
     /// The point at the start of the run.
     pub from: Vector,
+    /// How the tool should be turned there, if that is asked for; at the end of the run.
+    pub turn: Option<Pose>,
     /// How near is near enough; 0 if nothing is said of it.
     pub acceptance: f64,
 }
@@ -184,28 +186,50 @@ fn targets_of(run: &Run) -> Vec<Target> {
                 _,
                 GoalConfig::Waypoints {
                     waypoints_m,
+                    waypoints_quaternion_wxyz: turns,
                     acceptance_m,
                     ..
                 },
-            ) => targets.extend(waypoints_m.iter().map(|&point| Target {
-                point,
-                from: point,
-                acceptance: acceptance_m.unwrap_or_default(),
-            })),
+            ) => {
+                let points = waypoints_m.iter().enumerate();
+                targets.extend(points.map(|(nth, &point)| Target {
+                    point,
+                    from: point,
+                    turn: turns.get(nth).map(|it| Pose::from_quaternion_wxyz(*it)),
+                    acceptance: acceptance_m.unwrap_or_default(),
+                }));
+            }
             (TaskKind::Position, GoalConfig::Desired { desired, .. }) => {
                 if let [x, y, z] = desired[..] {
                     targets.push(Target {
                         point: at_end(run, [x, y, z], &task.motion),
                         from: [x, y, z],
+                        turn: None,
                         acceptance: 0.0,
                     });
                 }
             }
-            (TaskKind::Pose { target_m, .. }, _) => targets.push(Target {
-                point: at_end(run, *target_m, &task.motion),
-                from: *target_m,
-                acceptance: 0.0,
-            }),
+            (
+                TaskKind::Pose {
+                    target_m,
+                    desired_quaternion_wxyz,
+                },
+                _,
+            ) => {
+                let turn = Pose::from_quaternion_wxyz(*desired_quaternion_wxyz);
+                let turned = task.motion.turned_at(run.summary().ended_at_s).into();
+                targets.push(Target {
+                    point: at_end(run, *target_m, &task.motion),
+                    from: *target_m,
+                    turn: Some(Pose {
+                        x_axis: turn.x_axis.turned_by(turned),
+                        y_axis: turn.y_axis.turned_by(turned),
+                        z_axis: turn.z_axis.turned_by(turned),
+                        ..turn
+                    }),
+                    acceptance: 0.0,
+                });
+            }
             _ => {}
         }
     }

@@ -1,7 +1,7 @@
 //! The scene painted from back to front: floor and walls, then solids from far to near, each after the parts
 //! of the path that it stands in front of.
 
-use conik::{Pose, Shape};
+use conik::{Pose, Shape, Vec3};
 
 use super::axis::range;
 use super::callouts;
@@ -13,7 +13,7 @@ use super::ink::Stroke;
 use super::palette;
 use super::placement::{Area, Placement};
 use super::run::Run;
-use super::scene::Scene;
+use super::scene::{Scene, Target};
 use super::shading::{self, Paint};
 use super::solid;
 use super::svg::{Marks, Point};
@@ -95,6 +95,7 @@ impl Stage<'_> {
             wall::draw(it, self.scene, view, marks);
         }
         self.shadow(view, marks);
+        self.keep_words_off(view, placement);
         self.trace(view, marks);
         self.paint_solids(&solids, view, marks, placement);
         for cone in &self.cones {
@@ -106,6 +107,15 @@ impl Stage<'_> {
         callouts::draw(self.run, self.scene, view, marks, placement);
         for (point, note) in &self.notes {
             callouts::note(view.place(*point), note, marks, placement);
+        }
+    }
+
+    /// Labels should not stand on the parts that are there to stay.
+    fn keep_words_off(&self, view: &View, placement: &mut Placement) {
+        let [right, up] = view.camera.frame().map(Vec3::from);
+        for part in self.parts.iter().filter(|part| part.hides) {
+            let rim = solid::rim(&part.placed.shape, right, up).into_iter();
+            placement.avoid_curve(&solid::hull(rim.map(|point| view.place(point)).collect()));
         }
     }
 
@@ -187,6 +197,9 @@ impl Stage<'_> {
             let layer = &mut layers[layer(target.point)];
             layer.circle(at, radius, "none", Stroke::solid(palette::INK, 1.1));
             layer.circle(at, 1.4, palette::INK, Stroke::solid(palette::INK, 0.0));
+            for (tip, colour) in self.axes_at(target) {
+                layer.line(at, view.place(tip), Stroke::dashed(colour, 1.3, "4 1.5"));
+            }
         }
         let mut sheet: Option<usize> = None;
         for (depth, between) in layers.iter().enumerate() {
@@ -210,6 +223,17 @@ impl Stage<'_> {
         if sheet.is_some() {
             marks.close_sheet();
         }
+    }
+
+    /// The tips and colours of the axes that the tool should have at a target.
+    fn axes_at(&self, target: &Target) -> impl Iterator<Item = (Vector, &'static str)> {
+        let (low, high) = (self.scene.low, self.scene.high);
+        let length = 0.07 * (Vec3::from(high) - Vec3::from(low)).norm();
+        let point = Vec3::from(target.point);
+        let axes = target.turn.map(|it| [it.x_axis, it.y_axis, it.z_axis]);
+        let tips = axes.into_iter().flatten();
+        tips.map(move |axis| (point + axis * length).to_array())
+            .zip(palette::AXES)
     }
 
     /// The ways of what moves, and what is looked at.
@@ -249,7 +273,8 @@ impl Stage<'_> {
         let mut points: Vec<Vector> = floor.concat();
         points.extend(scene.path.iter().flat_map(|piece| &piece.points));
         let targets = scene.targets.iter();
-        points.extend(targets.flat_map(|target| [target.from, target.point]));
+        points.extend(targets.clone().flat_map(|it| [it.from, it.point]));
+        points.extend(targets.flat_map(|it| self.axes_at(it).map(|(tip, _)| tip)));
         let sights = scene.around.sights.iter();
         points.extend(sights.flat_map(|sight| [sight.from, sight.to]));
         points.extend(self.cones.iter().flat_map(Cone::rim));
@@ -259,11 +284,7 @@ impl Stage<'_> {
             points.extend(solid::rim(&shape, right, up));
         }
         for it in &scene.around.walls {
-            points.extend(
-                wall::piece(it, scene)
-                    .into_iter()
-                    .map(conik::Vec3::to_array),
-            );
+            points.extend(wall::piece(it, scene).into_iter().map(Vec3::to_array));
         }
         if scene.shows_base {
             points.push([0.0; 3]);

@@ -53,7 +53,7 @@ impl Viewpoint<'_> {
         // So does a wall in front of everything.
         let walls = self.scene.around.walls.iter();
         let in_front = walls.filter(|wall| wall.normal.dot(camera.toward()) < 0.0);
-        let clear = clear * 0.9_f64.powi(i32::try_from(in_front.count()).unwrap_or(9));
+        let clear = clear * 0.8_f64.powi(i32::try_from(in_front.count()).unwrap_or(9));
         let path = self.path_seen(camera);
         if self.figures.is_empty() {
             return clear * path;

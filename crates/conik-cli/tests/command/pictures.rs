@@ -97,3 +97,19 @@ fn shapes_of_every_size_fit_their_pictures() {
         pictures_are_right(name, &scenario);
     }
 }
+
+#[test]
+fn poses_to_be_taken_show_how_the_tool_is_turned_there() {
+    let arm = pictures_are_right(
+        "poses",
+        "[robot]\nmodel = \"ur5e\"\nq0_deg = [0, -90, -90, -90, 90, 0]\n\n[control]\nrate_hz = 20\n\
+         duration_s = 8\n\n[[task]]\nname = \"pose\"\ntype = \"pose\"\n\
+         waypoints_m = [[-0.5, -0.3, 0.3], [-0.4, 0.4, 0.3]]\n\
+         waypoints_rpy_deg = [[180, 0, 0], [180, 30, 60]]\nacceptance_m = 0.02\n\
+         acceptance_deg = 3\ngain_per_s = 1\n",
+    );
+    for colour in ["#d1242f", "#1a7f37", "#0550ae"] {
+        let dashed = format!("stroke=\"{colour}\" stroke-width=\"1.3\"");
+        assert_eq!(arm.matches(&dashed).count(), 2, "{colour}");
+    }
+}
