@@ -30,13 +30,15 @@ pub fn wrapped(indent: &str, prose: &str) -> String {
     text + &line + "\n"
 }
 
-/// Columns side by side, the first row a heading.
+/// Columns side by side, the first row a heading. What is longer than a line stands out of its column:
+/// names may have any length, and the width of a format is a 16-bit number.
 pub fn table<const N: usize>(rows: &[[String; N]]) -> String {
     let width = |column: usize| {
         rows.iter()
             .map(|row| row[column].chars().count())
             .max()
             .unwrap_or(0)
+            .min(WIDTH)
     };
     let widths: [usize; N] = std::array::from_fn(width);
     let mut text = String::new();
@@ -64,6 +66,14 @@ mod tests {
         assert!(text.lines().all(|line| line.chars().count() <= WIDTH));
         let words: Vec<&str> = text.split_whitespace().skip(1).collect();
         assert_eq!(words.join(" "), prose.trim_end());
+    }
+
+    #[test]
+    fn names_of_any_length_stand_in_a_table() {
+        let name = "x".repeat(100_000);
+        let rows = [["task", "kind"], [&name, "set"]];
+        let text = table(&rows.map(|row| row.map(str::to_owned)));
+        assert!(text.ends_with(&format!("  {name}  set\n")));
     }
 
     #[test]
