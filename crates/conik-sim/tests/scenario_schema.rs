@@ -187,6 +187,15 @@ const MISTAKES: &[(&str, &str)] = &[
         "target_m = [1, 2, 3]",
         "waypoints_m = [[1, 2, 3]]\nacceptance_m = 0",
     ),
+    ("max = 0.2", "max = 0.2\nmax_deg = 10"),
+    ("max = 0.2", "min_deg = 181"),
+    ("max = 0.2", "max_deg = -1"),
+    ("max = 0.2", "desired_deg = 10"),
+    (
+        "max = 0.2",
+        "desired_deg = 10\nmax_deg = 20\ngain_per_s = 1",
+    ),
+    ("max = 0.2", "desired_deg = 10\ndesired = 1\ngain_per_s = 1"),
     ("desired_rpy_deg = [0, 0, 9]", ""),
     (
         "desired_rpy_deg = [0, 0, 9]",

@@ -49,6 +49,52 @@ const TYPES: &[(&str, &str)] = &[
     ),
 ];
 
+/// Angles in degrees, and the same in the unit of the task.
+const IN_DEGREES: &[(&str, &str, &str, &str)] = &[
+    (
+        "pointing_angle",
+        "direction = [1, 0, 7]",
+        "max_deg = 30",
+        "max = 0.5235987755982988",
+    ),
+    (
+        "look_at",
+        "point_m = [1, 0, 0]",
+        "min_deg = 0\nmax_deg = 180",
+        "min = 0\nmax = 3.141592653589793",
+    ),
+    (
+        "orientation_angle",
+        "desired_rpy_deg = [170, -20, 30]",
+        "desired_deg = 90\ngain_per_s = 1",
+        "desired = 1.5707963267948966\ngain_per_s = 1",
+    ),
+    (
+        "elbow",
+        "shoulder = \"link_1\"\nelbow = \"link_2\"\nwrist = \"link_6\"\ndirection = [0, 0, 2]",
+        "min_deg = -180\nmax = 1",
+        "min = -3.141592653589793\nmax = 1",
+    ),
+    (
+        "joint",
+        "joint = 2",
+        "min_deg = -720\nmax_deg = 90",
+        "min = -12.566370614359172\nmax = 1.5707963267948966",
+    ),
+    (
+        "field_of_view",
+        "direction = [1, 0, 0]",
+        "max_deg = 180",
+        "max = 2",
+    ),
+    (
+        "field_of_view",
+        "direction = [1, 0, 0]",
+        "max_deg = 60",
+        "max = 0.9999999999999999",
+    ),
+];
+
 /// Types with what moves of them.
 const MOVING: &[(&str, &str)] = &[
     (
@@ -170,6 +216,19 @@ fn what_is_written_reads_back_to_the_same() {
         let json = serde_json::to_string(&scenario).expect("it can be written");
         let again: Scenario = serde_json::from_str(&json).expect("it can be read");
         assert_eq!(again, scenario, "{name}\n{json}");
+    }
+}
+
+#[test]
+fn angles_may_be_given_in_degrees() {
+    let validator = jsonschema::draft7::new(&schema()).expect("a schema");
+    for (name, own, in_degrees, in_value) in IN_DEGREES {
+        let text = scenario(name, &format!("{own}\n{in_degrees}"));
+        let expected = read(&scenario(name, &format!("{own}\n{in_value}")));
+        assert_eq!(read(&text), expected, "{text}");
+        assert_eq!(read(&read(&text).to_toml()), expected, "{text}");
+        let file: serde_json::Value = toml::from_str(&text).expect("TOML");
+        assert!(validator.is_valid(&file), "{text}");
     }
 }
 
@@ -309,6 +368,57 @@ const MISTAKES: &[(&str, &str, &str)] = &[
     ),
     ("manipulability", "max = -1", "its values are never below 0"),
     ("elbow", "direction = [0, 0, 1]\nmin = 0", "shoulder"),
+    (
+        "pointing_angle",
+        "direction = [0, 0, 1]\nmin = 0.1\nmin_deg = 4",
+        "both `min` and `min_deg` are given",
+    ),
+    (
+        "pointing_angle",
+        "direction = [0, 0, 1]\ndesired = 0.1\ndesired_deg = 4\ngain_per_s = 1",
+        "both `desired` and `desired_deg` are given",
+    ),
+    (
+        "pointing_angle",
+        "direction = [0, 0, 1]\nmin_deg = 30\nmax_deg = 20",
+        "min_deg 30 is greater than max_deg 20: no value is in this set; exchange them: `min_deg = 20`",
+    ),
+    (
+        "pointing_angle",
+        "direction = [0, 0, 1]\nmin_deg = 30\nmax = 0.2",
+        "min_deg 30 is greater than max 0.2: no value is in this set",
+    ),
+    (
+        "pointing_angle",
+        "direction = [0, 0, 1]\ndesired_deg = 30\nmax = 0.2\ngain_per_s = 1",
+        "both a `desired` value and `min` or `max`",
+    ),
+    (
+        "field_of_view",
+        "direction = [0, 0, 1]\nmin_deg = 200",
+        "200 is out of reach of a task of this type; its values are from 0 to 180",
+    ),
+    (
+        "look_at",
+        "point_m = [0, 0, 1]\nmax_deg = -1",
+        "its values are from 0 to 180",
+    ),
+    (
+        "elbow",
+        "min_deg = \"30\"",
+        "expected a number, found the text \"30\"",
+    ),
+    ("height", "min_deg = 3", "`min_deg` is a key of type"),
+    (
+        "orientation",
+        "max_deg = 3",
+        "a task of type \"orientation\" cannot be a set",
+    ),
+    (
+        "pointing_angle",
+        "direction = [0, 0, 1]\nmax_deg = 3\ndesired_per_s = 1",
+        "and this is a set",
+    ),
     (
         "position",
         "waypoints_m = [[0, 0, 1]]\nacceptance_m = 0.1\ngain_per_s = 1\nvelocity_m_per_s = [0, 0, 1]",

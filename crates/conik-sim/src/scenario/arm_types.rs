@@ -6,7 +6,7 @@ use super::config::TaskKind;
 use super::keys;
 use super::posture;
 use super::robot::{in_one_unit, of_joint};
-use super::task_types::{GoalShape, PLAIN, TaskType};
+use super::task_types::{GoalShape, PLAIN, RADIANS, TaskType};
 
 pub(super) const POSTURE: TaskType = TaskType {
     name: "posture",
@@ -86,6 +86,7 @@ pub(super) const ELBOW: TaskType = TaskType {
     ],
     frames: &[&keys::RELATIVE_TO],
     goal: GoalShape::Scalar(-PI, PI),
+    degrees: RADIANS,
     read: |table, robot, found| {
         let [shoulder, elbow, wrist] = [&keys::SHOULDER, &keys::ELBOW, &keys::WRIST]
             .map(|key| table.link(key, robot, found).required(table, found));

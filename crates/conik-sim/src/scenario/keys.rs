@@ -143,6 +143,21 @@ pub(super) const TYPE: Key = Key::new(
 /// What can be asked of a task with one value.
 pub(super) const SCALAR_GOAL: &[&Key] =
     &[&DESIRED, &MIN, &MAX, &RECOVERY_PER_S, &GAIN_PER_S, &DAMPING];
+/// The same of an angle, which may be given in degrees.
+pub(super) const ANGLE_GOAL: &[&Key] = &[
+    &DESIRED,
+    &ANGLE_DESIRED_DEG,
+    &MIN,
+    &MIN_DEG,
+    &MAX,
+    &MAX_DEG,
+    &RECOVERY_PER_S,
+    &GAIN_PER_S,
+    &DAMPING,
+];
+/// What makes a task of one value an equality task, and what makes it a set.
+pub(super) const DESIRED_VALUE: &[&Key] = &[&DESIRED, &ANGLE_DESIRED_DEG];
+pub(super) const LIMITS: &[&Key] = &[&MIN, &MAX, &MIN_DEG, &MAX_DEG];
 /// What is asked of a task that has it among its own keys, and no error that a gain could act on.
 pub(super) const OWN_GOAL: &[&Key] = &[&DAMPING];
 /// What can be asked of several joints.
@@ -199,6 +214,27 @@ pub(super) const MAX: Key = Key::new(
     "Set-based task: greatest allowed value, in the task's unit",
     Holds::Number(Range::SANE),
     "0.8",
+);
+pub(super) const ANGLE_DESIRED_DEG: Key = Key::new(
+    "desired_deg",
+    "deg",
+    "Equality task: the desired angle, in place of `desired`",
+    Holds::Number(Range::SANE),
+    "30",
+);
+pub(super) const MIN_DEG: Key = Key::new(
+    "min_deg",
+    "deg",
+    "Set-based task: least allowed angle, in place of `min`",
+    Holds::Number(Range::SANE),
+    "5",
+);
+pub(super) const MAX_DEG: Key = Key::new(
+    "max_deg",
+    "deg",
+    "Set-based task: greatest allowed angle, in place of `max`",
+    Holds::Number(Range::SANE),
+    "15",
 );
 pub(super) const WAYPOINTS_M: Key = Key::new(
     "waypoints_m",

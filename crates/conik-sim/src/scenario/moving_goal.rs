@@ -1,11 +1,12 @@
 //! Whether what moves of a task goes with what is asked of it.
 
-use super::goal::possible;
+use super::config::GoalConfig;
 use super::key::Key;
 use super::keys;
 use super::mistake::Mistakes;
 use super::motion::Motion;
 use super::read::Surroundings;
+use super::scalar_goal::possible;
 use super::table::Table;
 use super::task_types::{GoalShape, TaskType};
 use super::value::shown;
@@ -15,11 +16,10 @@ use super::waypoints::{WAYPOINTS, first_of};
 pub(super) fn check(
     table: &Table,
     task_type: &TaskType,
-    motion: Option<&Motion>,
+    (motion, goal): (&Motion, &GoalConfig),
     surroundings: Surroundings,
     found: &mut Mistakes,
 ) {
-    let has = |key: &Key| table.has(key);
     match task_type.goal {
         GoalShape::Place(_) => {
             let speed = first_of(table, task_type.moves);
@@ -36,44 +36,35 @@ pub(super) fn check(
                 );
             }
         }
-        GoalShape::Scalar(..)
-            if has(&keys::DESIRED_PER_S)
-                && !has(&keys::DESIRED)
-                && (has(&keys::MIN) || has(&keys::MAX)) =>
-        {
-            refuse(
+        GoalShape::Scalar(..) if motion.desired_per_s.is_none() => {}
+        GoalShape::Scalar(least, most) => match goal {
+            GoalConfig::Desired { desired, .. } => {
+                let until = motion.moves_until_s.or(surroundings.duration_s);
+                let (Some(until_s), Some(desired)) = (until, desired.first()) else {
+                    return;
+                };
+                let last = motion.value_at(*desired, until_s);
+                if !(least..=most).contains(&last) {
+                    let what = format!(
+                        "after {} s the desired value is {}, out of reach of a task of this type",
+                        shown(until_s),
+                        shown(last)
+                    );
+                    let help = format!(
+                        "{}: let it come to rest earlier with `moves_until_s`, or take another speed",
+                        possible((least, most))
+                    );
+                    refuse(table, &keys::DESIRED_PER_S, &what, &help, found);
+                }
+            }
+            _ => refuse(
                 table,
                 &keys::DESIRED_PER_S,
                 "it says how a desired value moves, and this is a set",
                 "remove it, or give `desired` in place of `min` and `max`",
                 found,
-            );
-        }
-        GoalShape::Scalar(least, most) => {
-            // What is wrong with the value itself is noted where the goal is read.
-            let desired = table.number(&keys::DESIRED, &mut Mistakes::new("")).given();
-            let (Some(desired), Some(motion)) = (desired, motion) else {
-                return;
-            };
-            let until = motion.moves_until_s.or(surroundings.duration_s);
-            let (Some(until_s), Some(_)) = (until, motion.desired_per_s) else {
-                return;
-            };
-            let last = motion.value_at(desired, until_s);
-            let in_reach = least..=most;
-            if in_reach.contains(&desired) && !in_reach.contains(&last) {
-                let what = format!(
-                    "after {} s the desired value is {}, out of reach of a task of this type",
-                    shown(until_s),
-                    shown(last)
-                );
-                let help = format!(
-                    "{}: let it come to rest earlier with `moves_until_s`, or take another speed",
-                    possible((least, most))
-                );
-                refuse(table, &keys::DESIRED_PER_S, &what, &help, found);
-            }
-        }
+            ),
+        },
         _ => {}
     }
 }

@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use super::config::TaskKind;
 use super::keys;
 use super::orientation;
-use super::task_types::{GoalShape, PLAIN, TaskType};
+use super::task_types::{GoalShape, PLAIN, RADIANS, TaskType};
 use super::waypoints::{Counts, Places};
 
 const ORIENTATION_COUNTS: Counts = Counts {
@@ -38,6 +38,7 @@ pub(super) const ORIENTATION_ANGLE: TaskType = TaskType {
     one_of: &[&keys::DESIRED_RPY_DEG, &keys::DESIRED_QUATERNION_WXYZ],
     moves: keys::TURNS,
     goal: GoalShape::Scalar(0.0, PI),
+    degrees: RADIANS,
     read: |table, _, found| {
         Some(TaskKind::OrientationAngle {
             desired_quaternion_wxyz: orientation::read(table, found)?,
@@ -69,6 +70,7 @@ pub(super) const POINTING_ANGLE: TaskType = TaskType {
     optional: &[&keys::AXIS_IN_FRAME],
     moves: keys::TURNS,
     goal: GoalShape::Scalar(0.0, PI),
+    degrees: RADIANS,
     read: |table, _, found| {
         let direction = table
             .direction(&keys::DIRECTION, found)
@@ -90,6 +92,7 @@ pub(super) const LOOK_AT: TaskType = TaskType {
     keys: &[&keys::POINT_M],
     moves: keys::MOVES,
     goal: GoalShape::Scalar(0.0, PI),
+    degrees: RADIANS,
     read: |table, _, found| {
         let point_m = table.vector(&keys::POINT_M, found).required(table, found)?;
         Some(TaskKind::LookAt { point_m })

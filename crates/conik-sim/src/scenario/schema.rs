@@ -4,12 +4,12 @@ use serde_json::{Map, Value, json};
 
 use super::config::Control;
 use super::geometry;
+use super::goal_schema::{self, each_alone};
 use super::key::{Holds, Key, Range};
 use super::keys;
 use super::names;
 use super::robots::known_robots;
-use super::task_types::{self, GoalShape, TaskType};
-use super::waypoints::{ACCEPTANCE, Counts, ONE_PLACE, WAYPOINTS};
+use super::task_types::{self, TaskType};
 
 /// The JSON Schema (draft-07) of the scenario file as this version reads it.
 ///
@@ -272,29 +272,7 @@ fn task_of_type(task_type: &TaskType) -> Value {
         "const": task_type.name,
         "description": task_type.about,
     });
-    let goals = match task_type.goal {
-        GoalShape::Place(counts) => places(task_type, counts),
-        GoalShape::Own => json!([{}]),
-        GoalShape::Posture => json!([
-            { "required": ["desired_deg", "gain_per_s"] },
-            { "required": ["desired_rad", "gain_per_s"] },
-        ]),
-        GoalShape::Scalar(..) => json!([
-            { "required": ["desired", "gain_per_s"], "not": { "anyOf": [
-                { "required": ["min"] },
-                { "required": ["max"] },
-                { "required": ["recovery_per_s"] },
-            ] } },
-            { "not": { "anyOf": [
-                { "required": ["desired"] },
-                { "required": ["desired_per_s"] },
-            ] }, "anyOf": [
-                { "required": ["min"] },
-                { "required": ["max"] },
-            ] },
-        ]),
-    };
-    set(&mut schema, "oneOf", goals);
+    set(&mut schema, "oneOf", goal_schema::alternatives(task_type));
     let mut rules = Vec::new();
     if !task_type.one_of.is_empty() {
         rules.push(json!({ "oneOf": each_alone(task_type.one_of) }));
@@ -310,60 +288,11 @@ fn task_of_type(task_type: &TaskType) -> Value {
     if !rules.is_empty() {
         set(&mut schema, "allOf", json!(rules));
     }
-    if let GoalShape::Scalar(least, most) = task_type.goal {
-        restrict(&mut schema["properties"], least, most);
-    }
+    goal_schema::restrict(&mut schema["properties"], task_type);
     schema
-}
-
-/// Waypoints, or one place, which may move.
-fn places(task_type: &TaskType, counts: Counts) -> Value {
-    let visits = [ACCEPTANCE, WAYPOINTS].concat();
-    let stays = [ONE_PLACE, task_type.moves].concat();
-    let mut alternatives = Vec::new();
-    for (point, turns, others) in [
-        (
-            ["waypoints_m", "acceptance_m"].as_slice(),
-            [&WAYPOINTS[1..], &ACCEPTANCE[1..]],
-            stays,
-        ),
-        (["target_m"].as_slice(), [&ONE_PLACE[1..], &[]], visits),
-    ] {
-        let mut required = vec![keys::GAIN_PER_S.name];
-        let mut rules = vec![json!({ "not": { "anyOf": each_alone(&others) } })];
-        if counts.point {
-            required.extend(point);
-        }
-        if counts.orientation {
-            let ways = turns.into_iter().filter(|ways| !ways.is_empty());
-            rules.extend(ways.map(|ways| json!({ "oneOf": each_alone(ways) })));
-        }
-        alternatives.push(json!({ "required": required, "allOf": rules }));
-    }
-    json!(alternatives)
-}
-
-/// For each key a rule that it is there.
-fn each_alone(keys: &[&'static Key]) -> Vec<Value> {
-    let rules = keys.iter().map(|key| json!({ "required": [key.name] }));
-    rules.collect()
 }
 
 /// What comes to rest must move first.
 fn needs_speed(speeds: &[&'static Key]) -> Value {
     json!({ keys::MOVES_UNTIL_S.name: { "anyOf": each_alone(speeds) } })
-}
-
-/// Brings the values that a type can have into its limits and its desired value.
-fn restrict(properties: &mut Value, least: f64, most: f64) {
-    for key in [&keys::DESIRED, &keys::MAX] {
-        if least.is_finite() {
-            properties[key.name]["minimum"] = json!(least);
-        }
-    }
-    for key in [&keys::DESIRED, &keys::MIN] {
-        if most.is_finite() {
-            properties[key.name]["maximum"] = json!(most);
-        }
-    }
 }

@@ -75,8 +75,11 @@ pub(super) fn read(table: &Table, surroundings: Surroundings, found: &mut Mistak
     let motion = motion::read(&table, &speeds, found);
     let goal = match task_type {
         Some(task_type) => {
-            moving_goal::check(&table, task_type, motion.as_ref(), surroundings, found);
-            goal::read(&table, task_type, surroundings, found)
+            let goal = goal::read(&table, task_type, surroundings, found);
+            if let (Some(motion), Some(goal)) = (&motion, &goal) {
+                moving_goal::check(&table, task_type, (motion, goal), surroundings, found);
+            }
+            goal
         }
         None => goal::look_over(&table, found),
     };
@@ -110,9 +113,10 @@ fn place_of(table: &Table, key: &Key) -> Option<Range<usize>> {
 }
 
 fn role(table: &Table, task_type: Option<&TaskType>) -> Role {
-    let has_limits = table.has(&keys::MIN) || table.has(&keys::MAX);
-    let equality_keys = [&keys::DESIRED, &keys::TARGET_M, &keys::WAYPOINTS_M];
-    let has_desired = equality_keys.into_iter().any(|key| table.has(key));
+    let has_limits = first_of(table, keys::LIMITS).is_some();
+    let places = [&keys::TARGET_M, &keys::WAYPOINTS_M];
+    let has_desired = first_of(table, keys::DESIRED_VALUE).or(first_of(table, &places));
+    let has_desired = has_desired.is_some();
     match task_type {
         Some(task_type) if !matches!(task_type.goal, GoalShape::Scalar(..)) => Role::Equality,
         _ => match (has_desired, has_limits) {
@@ -162,12 +166,12 @@ fn refuse_unknown_keys(table: &Table, task_type: Option<&'static TaskType>, foun
             matches!(task_type.goal, GoalShape::Place(Counts { orientation, .. }) if !orientation);
         let is_scalar = matches!(task_type.goal, GoalShape::Scalar(..));
         Some(match name {
-            "min" | "max" | "recovery_per_s" if !is_scalar && !is_point => (
+            "min" | "max" | "min_deg" | "max_deg" | "recovery_per_s" if !is_scalar && !is_point => (
                 format!("a task of type {this:?} cannot be a set"),
                 "sets are of one number: take type \"orientation_angle\", \"coordinate\" or \"joint\""
                     .to_owned(),
             ),
-            "min" | "max" | "recovery_per_s" if is_point => (
+            "min" | "max" | "min_deg" | "max_deg" | "recovery_per_s" if is_point => (
                 format!("a task of type {this:?} cannot be a set: its value is a point"),
                 "take type \"coordinate\" to limit one axis, or \"distance\" to keep away from a \
                  point"

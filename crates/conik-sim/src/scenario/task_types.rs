@@ -32,9 +32,32 @@ pub(super) struct TaskType {
     pub(super) moves: &'static [&'static Key],
     /// What can be asked of it.
     pub(super) goal: GoalShape,
+    /// How its value follows from an angle in degrees, if it is one.
+    pub(super) degrees: Option<Degrees>,
     /// Reads what it measures.
     pub(super) read: fn(&Table, Option<&RobotFacts>, &mut Mistakes) -> Option<TaskKind>,
 }
+
+/// How a value follows from an angle in degrees.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Degrees {
+    /// The value, which grows with the angle.
+    pub(super) to_value: fn(f64) -> f64,
+    /// The angle [deg].
+    pub(super) of_value: fn(f64) -> f64,
+}
+
+/// The value is the angle in radians.
+pub(super) const RADIANS: Option<Degrees> = Some(Degrees {
+    to_value: f64::to_radians,
+    of_value: f64::to_degrees,
+});
+
+/// The value is the length of the chord: 2 sin(angle / 2).
+const CHORD: Option<Degrees> = Some(Degrees {
+    to_value: |angle| 2.0 * (angle.clamp(-180.0, 180.0).to_radians() / 2.0).sin(),
+    of_value: |chord| 2.0 * (chord / 2.0).asin().to_degrees(),
+});
 
 /// What can be asked of a type of task.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -58,6 +81,7 @@ impl TaskType {
             }) => keys::POINT_GOAL,
             GoalShape::Place(Counts { point: false, .. }) => keys::ORIENTATION_GOAL,
             GoalShape::Place(_) => keys::POSE_GOAL,
+            GoalShape::Scalar(..) if self.degrees.is_some() => keys::ANGLE_GOAL,
             GoalShape::Scalar(..) => keys::SCALAR_GOAL,
             GoalShape::Own => keys::OWN_GOAL,
             GoalShape::Posture => keys::POSTURE_GOAL,
@@ -103,6 +127,7 @@ pub(super) const PLAIN: TaskType = TaskType {
     one_of: &[],
     moves: &[],
     goal: ANY,
+    degrees: None,
     read: |_, _, _| None,
 };
 
@@ -147,6 +172,7 @@ pub(super) const ALL: &[TaskType] = &[
         keys: &[&keys::DIRECTION],
         moves: keys::TURNS,
         goal: GoalShape::Scalar(0.0, 2.0),
+        degrees: CHORD,
         read: |table, _, found| {
             let direction = table
                 .direction(&keys::DIRECTION, found)
@@ -160,6 +186,7 @@ pub(super) const ALL: &[TaskType] = &[
         about: "Position of one joint [rad], or [m] if it slides",
         keys: &[&keys::JOINT],
         frames: &[],
+        degrees: RADIANS,
         read: |table, robot, found| {
             let joint = table
                 .joint(&keys::JOINT, robot, found)
