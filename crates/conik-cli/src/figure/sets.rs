@@ -2,7 +2,7 @@
 //! time in which it was active (Fig. 4g-i, and 4k-l for the field of view).
 
 use conik_sim::joint_limits::LIMIT;
-use conik_sim::scenario::{GoalConfig, TaskConfig};
+use conik_sim::scenario::{GoalConfig, TaskConfig, TaskKind};
 
 use super::axis::{Axis, range};
 use super::chart::{Chart, LABEL, Layout};
@@ -14,15 +14,47 @@ use super::quantity;
 use super::run::{Run, is_set};
 use super::svg::Picture;
 
+/// Where there are more sets than this, those between shapes are drawn that bound.
+const MOST_AT_A_GLANCE: usize = 12;
+
 /// The set-based tasks in the paper's order: as in the list, the field of view last. Of the joints'
-/// position limits only those that bound.
+/// position limits only those that bound, and of many pairs of shapes too.
 pub fn tasks(run: &Run) -> Vec<&TaskConfig> {
-    let is_idle =
-        |task: &TaskConfig| task.name.starts_with(LIMIT) && run.active_spans(&task.name).is_empty();
-    let sets = run.tasks().iter().filter(|task| is_set(task));
-    let mut sets: Vec<&TaskConfig> = sets.filter(|task| !is_idle(task)).collect();
+    let (mut sets, _) = told_apart(run);
     sets.sort_by_key(|task| quantity::is_view(task));
     sets
+}
+
+/// What has a chart.
+pub fn kind(run: &Run) -> &'static str {
+    if pairs_left_out(run) > 0 {
+        "set-based task that came to its limit"
+    } else {
+        "set-based task"
+    }
+}
+
+/// How many pairs of shapes are left out because they never came to their limit.
+pub fn pairs_left_out(run: &Run) -> usize {
+    told_apart(run).1
+}
+
+/// The sets to be drawn, and how many pairs of shapes are not.
+fn told_apart(run: &Run) -> (Vec<&TaskConfig>, usize) {
+    let bound = |task: &TaskConfig| {
+        let mut modes = run.modes().iter().flat_map(|mode| &mode.active);
+        modes.any(|set| *set == task.name)
+    };
+    let sets = run.tasks().iter().filter(|task| is_set(task));
+    let mut sets: Vec<&TaskConfig> = sets
+        .filter(|task| !task.name.starts_with(LIMIT) || bound(task))
+        .collect();
+    let all = sets.len();
+    if all > MOST_AT_A_GLANCE {
+        sets.retain(|task| !matches!(task.kind, TaskKind::Shapes(_)) || bound(task));
+    }
+    let left_out = all - sets.len();
+    (sets, left_out)
 }
 
 /// The charts of all sets in one picture.
@@ -33,7 +65,7 @@ pub fn panel(run: &Run, width: f64) -> Picture {
         .into_iter()
         .map(|task| chart(run, task, shape.cell()))
         .collect();
-    grid::arrange(&charts, shape, "set-based task")
+    grid::arrange(&charts, shape, kind(run))
 }
 
 /// The chart of one set-based task.

@@ -96,15 +96,29 @@ fn figure_four(run: &Run) -> String {
         "<section>\n<h2>What happened</h2>\n\
          <h3>Path of the tool</h3>\n<figure class=\"card\" id=\"path\">{}{}</figure>\n\
          {}<h3>Mode over time</h3>\n{}\
-         <h3>Set-based tasks and their limits</h3>\n{}\
+         <h3>Set-based tasks and their limits</h3>\n{}{}\
          <h3>Errors of the equality tasks</h3>\n{}</section>\n",
         path.to_html(),
         rotation::scene(run, PATH.0, PATH.1),
         arm.unwrap_or_default(),
         scrolling_card(&mode::panel(run, 680.0)),
-        cards(&sets, "This run has no set-based task."),
+        cards(&sets, &format!("This run has no {}.", sets::kind(run))),
+        left_out(run),
         cards(&errors, "This run has no equality task."),
     )
+}
+
+fn left_out(run: &Run) -> String {
+    match sets::pairs_left_out(run) {
+        0 => String::new(),
+        1 => {
+            "<p class=\"note\">One pair of shapes never came to its limit, and has no chart.</p>\n"
+                .to_owned()
+        }
+        pairs => format!(
+            "<p class=\"note\">{pairs} pairs of shapes never came to their limits, and have no charts.</p>\n"
+        ),
+    }
 }
 
 fn joints_section(run: &Run) -> String {

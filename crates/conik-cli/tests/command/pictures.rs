@@ -113,3 +113,35 @@ fn poses_to_be_taken_show_how_the_tool_is_turned_there() {
         assert_eq!(arm.matches(&dashed).count(), 2, "{colour}");
     }
 }
+
+#[test]
+fn many_pairs_of_shapes_have_charts_only_if_they_came_to_their_limits() {
+    let folder = empty_folder("pictures of pairs");
+    let run = |count: usize| {
+        let obstacle = |nth| {
+            format!(
+                "[[obstacle]]\nname = \"far_{nth}\"\ntype = \"sphere\"\ncenter_m = [9, 9, {nth}]\n\
+                 radius_m = 0.1\ndistance_m = 0.1\n"
+            )
+        };
+        let scenario = format!(
+            "[robot]\nmodel = \"ur5-paper\"\nq0_rad = [0, -1, 1, 0, 0, 0]\n\n[control]\nduration_s = 0.1\n\n\
+             [[shape]]\nlink = \"link_6\"\ntype = \"sphere\"\ncenter_m = [0, 0, 0]\nradius_m = 0.05\n\n{}\
+             [[task]]\nname = \"up\"\ntype = \"height\"\ndesired = 0.3\ngain_per_s = 1\n",
+            (0..count).map(obstacle).collect::<String>()
+        );
+        fs::write(folder.join("scenario.toml"), scenario).unwrap();
+        done(&folder, "run scenario.toml --robot ideal --quiet --out .");
+        done(&folder, "plot . --quiet");
+        let read = |file| fs::read_to_string(folder.join(file)).unwrap();
+        (read("sets.svg"), read("report.html"))
+    };
+    let (sets, report) = run(12);
+    assert!(sets.contains("link_6/far_11") && !report.contains("have no charts"));
+    let (sets, report) = run(13);
+    assert!(
+        sets.contains("no set-based task that came to its limit"),
+        "{sets}"
+    );
+    assert!(report.contains("13 pairs of shapes never came to their limits"));
+}
