@@ -4,6 +4,7 @@ use roxmltree::{Document, Error, Node, ParsingOptions};
 
 use crate::element::Element;
 use crate::error::{Place, UrdfError, quoted};
+use crate::extent;
 
 /// Elements, texts and comments that a description may have. The largest of public ones have a
 /// hundredth of it.
@@ -35,6 +36,17 @@ pub(crate) fn parse(text: &str) -> Result<Document<'_>, UrdfError> {
     };
     // Places count from the beginning of the text, so what is before it must stay unless it cannot.
     let whole = text.trim_start_matches('\u{feff}');
+    if let Some((byte, what)) = extent::too_many(whole) {
+        let before = &whole[..byte];
+        let column = before.chars().rev().take_while(|c| *c != '\n').count() + 1;
+        let line = before.matches('\n').count() + 1;
+        return Err(no_xml(
+            line,
+            column,
+            what,
+            "is it a description of a robot?",
+        ));
+    }
     Document::parse_with_options(whole, options).map_err(|error| {
         let place = error.pos();
         let dtd = whole.find("<!DOCTYPE");

@@ -7,6 +7,9 @@ use crate::error::{Place, UrdfError, quoted};
 /// Numbers beyond it are no lengths or angles of a robot [m, rad].
 pub(crate) const GREATEST: f64 = 1e6;
 
+/// Names of links and joints stand in every table, log and picture.
+const MOST_BYTES: usize = 200;
+
 /// An element with its place.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Element<'d> {
@@ -149,6 +152,11 @@ impl<'d> Element<'d> {
     /// An attribute that must be there and say something.
     pub(crate) fn required(&self, name: &str, example: &str) -> Result<&'d str, UrdfError> {
         match self.attribute(name) {
+            Some(value) if value.len() > MOST_BYTES => Err(self.error_at(
+                name,
+                format!("{} is {} bytes long", quoted(value), value.len()),
+                format!("names have at most {MOST_BYTES}"),
+            )),
             Some(value) if !value.trim().is_empty() => Ok(value),
             Some(_) => Err(self.error_at(name, "is empty", format!("write {example}"))),
             None => Err(self.error_at(name, "missing", format!("write {example}"))),

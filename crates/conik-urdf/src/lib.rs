@@ -32,6 +32,7 @@ mod description;
 mod document;
 mod element;
 mod error;
+mod extent;
 mod joint;
 mod limits;
 mod mimic;

@@ -226,6 +226,26 @@ fn immense_texts_come_to_an_end() {
     refusal(&"<robot>".repeat(300_000), &[]);
     let wide = "<robot name=\"r\">".to_owned() + &"<a/>".repeat(600_000) + "</robot>";
     assert!(refusal(&wide, &[]).to_string().contains("more than 500000"));
+    let attributes: String = (0..300_000).map(|i| format!(" a{i}=\"1\"")).collect();
+    let message = refusal(
+        &ARM.replacen("<axis", &format!("<axis{attributes}"), 1),
+        &[],
+    );
+    assert!(
+        message
+            .to_string()
+            .starts_with("line 10, column 5: the element has 300001 attributes"),
+        "{message}"
+    );
+    let declared: String = (0..30_000)
+        .map(|i| format!("<a xmlns:n{i}=\"u\">"))
+        .collect();
+    let nested = ARM.replace(
+        "</robot>",
+        &(declared + &"</a>".repeat(30_000) + "</robot>"),
+    );
+    let message = refusal(&nested, &[]).to_string();
+    assert!(message.contains("more than 1000 namespaces"), "{message}");
     let strange: String = (0..100_000).map(|i| format!("<a{i}/>")).collect();
     read(
         &ARM.replace("</robot>", &(strange + "</robot>")),
@@ -254,5 +274,22 @@ fn immense_texts_come_to_an_end() {
     );
     assert!(refusal(&laughs, &[]).to_string().contains("document type"));
     let long = ARM.replace("\"base\"", &format!("\"{}\"", "b".repeat(100_000)));
-    assert!(refusal(&long, &["x"]).to_string().len() < 2000);
+    let message = refusal(&long, &[]).to_string();
+    assert!(
+        message.len() < 2000 && message.contains("100000 bytes long"),
+        "{message}"
+    );
+}
+
+#[test]
+fn what_looks_like_attributes_and_is_none_is_not_counted() {
+    let equations = "a=\"b\" <c d='e' xmlns:f=\"g\"/>".repeat(2000);
+    let within = format!("<!-- {equations} --><![CDATA[ {equations} ]]><?x {equations} ?>");
+    let quoted = format!("<visual name='{}'/>", "x=y > ".repeat(2000));
+    let text = ARM.replacen(
+        "<link name=\"base\"/>",
+        &format!("<link name=\"base\">{within}{quoted}</link>"),
+        1,
+    );
+    read(&text, &Options::default()).expect("it is right");
 }
