@@ -44,11 +44,10 @@ fn tag(text: &str) -> (usize, usize) {
             // Not even a value may have it: a quote is missing.
             (_, b'<') => return (place, attributes),
             (Some(open), _) if open == byte => quote = None,
-            (Some(_), _) => {}
             (None, b'"' | b'\'') => quote = Some(byte),
             (None, b'=') => attributes += 1,
             (None, b'>') => return (place + 1, attributes),
-            (None, _) => {}
+            _ => {}
         }
     }
     (text.len(), attributes)
