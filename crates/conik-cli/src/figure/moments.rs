@@ -11,6 +11,10 @@ const MOST: usize = 5;
 /// The arm must have moved by this part of its size to be drawn again.
 const APART: f64 = 0.12;
 
+/// A tool that turns about itself moves points so far from it, as part of the arm's size: by a third of a
+/// turn, and the arm is drawn again.
+const TOOL: f64 = 0.1;
+
 /// What the arm looks like at one time.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Moment {
@@ -42,7 +46,7 @@ pub fn of(run: &Run, robot: &Robot, size: f64) -> Vec<Moment> {
         Some(Moment { t_s: times[row], q })
     };
     let (begin, end) = run.period_s();
-    let places = |moment: &Moment| places(robot, &moment.q);
+    let places = |moment: &Moment| places(robot, &moment.q, TOOL * size);
     let mut chosen: Vec<Moment> = [begin, end].into_iter().filter_map(at).collect();
     let mut drawn: Vec<Vec<Vec3>> = chosen.iter().map(places).collect();
     if let [start, end] = &drawn[..]
@@ -83,13 +87,16 @@ pub fn of(run: &Run, robot: &Robot, size: f64) -> Vec<Moment> {
     chosen
 }
 
-/// Where joints and tool are.
-fn places(robot: &Robot, q: &[f64]) -> Vec<Vec3> {
+/// Where joints and tool are, and points along the tool's axes, so far from it.
+fn places(robot: &Robot, q: &[f64], along_axes: f64) -> Vec<Vec3> {
     let mut kinematics = Kinematics::new(robot);
     kinematics.update(q);
     let joints = robot.placed_joints(q);
     let mut places: Vec<Vec3> = joints.iter().map(|joint| joint.moved.origin).collect();
-    places.push(kinematics.world_from(conik::Frame::Tool).origin);
+    let tool = kinematics.world_from(conik::Frame::Tool);
+    places.push(tool.origin);
+    let axes = [tool.x_axis, tool.y_axis, tool.z_axis];
+    places.extend(axes.map(|axis| tool.origin + axis * along_axes));
     places
 }
 

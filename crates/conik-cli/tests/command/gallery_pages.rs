@@ -214,3 +214,15 @@ fn right_palm_stays_on_the_crate() {
         assert!(worst <= most, "{task}: {worst}");
     }
 }
+
+/// At the second waypoint of the pouring arm only the cup has turned.
+#[test]
+fn arm_is_drawn_again_where_its_tool_has_turned() {
+    let folder = run("turned", "pouring");
+    done(&folder, "plot . --quiet");
+    let reached = &summary(&folder)["waypoints_reached_s"][1];
+    let picture = fs::read_to_string(folder.join("arm.svg")).unwrap();
+    let title = picture.split("</title>").next().unwrap();
+    let time = format!("{reached}\u{a0}s");
+    assert!(title.contains(&time), "{title}, and not {time}");
+}
