@@ -100,16 +100,17 @@ fn angles_heights_and_singularities_make_a_difference() {
 #[test]
 fn elbow_of_seven_axes_drops_where_no_set_keeps_it_up() {
     let least = |summary: &Value| summary["tasks"]["elbow"]["min"].as_f64().unwrap();
+    let border = -12_f64.to_radians();
     let kept = run("elbow", "pouring.toml", |text| text);
     assert!(
-        (-0.2..-0.2 + 1e-6).contains(&least(&kept)),
+        (border..border + 1e-6).contains(&least(&kept)),
         "{}",
         least(&kept)
     );
     let left = run("elbow", "pouring.toml", |text| {
-        let bounds = "\nmin = -0.2 ";
+        let bounds = "\nmin_deg = -12\n";
         assert!(text.contains(bounds));
-        text.replace(bounds, "\nmin = -3 ")
+        text.replace(bounds, "\nmin_deg = -170\n")
     });
     let dropped = -40_f64.to_radians();
     assert!((least(&left) - dropped).abs() < 0.02, "{}", least(&left));
