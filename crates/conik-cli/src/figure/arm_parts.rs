@@ -70,22 +70,29 @@ impl<'a> Arm<'a> {
         kinematics.update(q);
         let joints = self.robot.placed_joints(q);
         let base = self.base(&kinematics);
+        // Links begin on the plate: a round end in it would reach below.
+        let top = base.origin + base.z_axis * self.plate();
+        let seated = |point: Vec3| {
+            let is_in_plate = (point - base.origin).norm() < self.plate();
+            if is_in_plate { top } else { point }
+        };
         let mut drawn = Drawn::default();
         let mut steps = vec![0_usize; joints.len()];
         for (nth, joint) in joints.iter().enumerate() {
             let (from, step) = match joint.carried_by {
                 Some(carrier) => (joints[carrier].moved.origin, steps[carrier] + 1),
-                None => (base.origin, 0),
+                None => (top, 0),
             };
             steps[nth] = step;
             let radius = self.radius(step, joints.len());
-            self.link(from, joint.frame.origin, radius, &mut drawn);
+            let (from, to) = (seated(from), seated(joint.frame.origin));
+            self.link(from, to, radius, &mut drawn);
             self.joint(joint, &base, radius, &mut drawn);
         }
         for &tool in &self.tools {
             let pose = kinematics.world_from(tool);
             let carrier = self.robot.carrier(tool);
-            let from = carrier.map_or(base.origin, |carrier| joints[carrier].moved.origin);
+            let from = carrier.map_or(top, |carrier| seated(joints[carrier].moved.origin));
             let step = carrier.map_or(0, |carrier| steps[carrier] + 1);
             self.link(
                 from,
