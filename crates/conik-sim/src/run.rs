@@ -104,6 +104,7 @@ fn drive(
     let present = arm.start(rate_hz)?;
     let mut q = begin_at(&present, &experiment.q0, experiment.from_here)?;
     let columns = Columns::new(experiment.controller.stack());
+    experiment.controller.measure_on_demand();
     let mut last_active: Option<ActiveSet> = None;
     for tick in 0..=experiment.last_tick {
         if stop.load(Ordering::Relaxed) {
@@ -182,10 +183,12 @@ fn decide(
         waypoint = waypoints.index();
     }
     let before = Instant::now();
-    let step = controller
+    controller
         .step(q)
         .map_err(|error| ArmError::new("no-reference", error.to_string()))?;
     let step_ns = u64::try_from(before.elapsed().as_nanos()).unwrap_or(u64::MAX);
+    // The log has all values, also those that the step had no need of.
+    let step = controller.measure();
     Ok(Record {
         tick: 0,
         t_s: 0.0,

@@ -17,8 +17,10 @@ const TICKS: usize = 2000;
 fn main() {
     timing::heading();
     distances();
-    for (name, near) in [("all far away", false), ("some near by", true)] {
-        step(name, near);
+    for on_demand in [true, false] {
+        for (name, near) in [("all far away", false), ("some near by", true)] {
+            step(name, near, on_demand);
+        }
     }
 }
 
@@ -70,8 +72,9 @@ fn distances() {
 }
 
 /// Four capsules on an arm against fifty boxes, while the tool goes round in a circle.
-fn step(name: &str, near: bool) {
-    let name = format!("step with {PAIRS} pairs, {name}");
+fn step(name: &str, near: bool, on_demand: bool) {
+    let measured = if on_demand { "needed" } else { "all" };
+    let name = format!("step with {PAIRS} pairs, {name}, {measured} measured");
     if !is_wanted(&name) {
         return;
     }
@@ -104,6 +107,9 @@ fn step(name: &str, near: bool) {
         .equality("position", Position::of_tool(), &start, 1.5)
         .expect("sound");
     let mut controller = Controller::new(&robot, stack, Settings::at_rate(125.0)).expect("sound");
+    if on_demand {
+        controller.measure_on_demand();
+    }
     let mut q = JointVec::from([-0.84, -2.76, -1.88, -1.57, -1.48, 0.0]);
     let run: Vec<(JointVec, [f64; 3])> = (0..TICKS)
         .map(|k| {

@@ -143,12 +143,45 @@ impl Barrier {
 
     /// Whether a velocity keeps, for certain, the sides left out as too far away. If it does not, they
     /// are to be gathered after all, and what was found without them is to be found again.
-    pub(crate) fn covers(&self, velocity: &[f64]) -> bool {
-        velocity.iter().map(|speed| speed.abs()).sum::<f64>() <= self.horizon
+    pub(crate) fn covers(
+        &mut self,
+        stack: &Stack,
+        borders: &Borders,
+        evaluation: &mut Evaluation,
+        velocity: &[f64],
+    ) -> bool {
+        let speed: f64 = velocity.iter().map(|speed| speed.abs()).sum();
+        if speed > self.horizon {
+            self.look_closer(stack, borders, evaluation);
+        }
+        speed <= self.horizon
+    }
+
+    /// Measures those sides left out of which only a bound was known.
+    fn look_closer(&mut self, stack: &Stack, borders: &Borders, evaluation: &mut Evaluation) {
+        let measured = evaluation.measure(stack);
+        if measured.is_empty() {
+            return;
+        }
+        self.horizon = f64::INFINITY;
+        for (side, bound) in &mut self.far {
+            let task = side.task;
+            if measured.contains(task) {
+                let inside = side.inside(borders.interval(task), evaluation.scalar(task));
+                *bound = landing_rate(inside, self.period);
+            }
+            self.horizon = self.horizon.min(-*bound / evaluation.steepness(task));
+        }
     }
 
     /// Gathers the sides that were left out.
-    pub(crate) fn gather_far(&mut self, stack: &Stack, evaluation: &mut Evaluation) {
+    pub(crate) fn gather_far(
+        &mut self,
+        stack: &Stack,
+        borders: &Borders,
+        evaluation: &mut Evaluation,
+    ) {
+        self.look_closer(stack, borders, evaluation);
         for (side, bound) in self.far.drain(..) {
             self.sides.push(stack, evaluation, side);
             self.bounds.push(bound);

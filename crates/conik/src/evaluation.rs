@@ -1,7 +1,9 @@
 //! Values and Jacobians of all tasks in one configuration, each computed at most once per tick.
 
+use alloc::boxed::Box;
 use alloc::vec::Vec;
 
+use crate::active::ActiveSet;
 use crate::kinematics::Kinematics;
 use crate::linalg::are_equal;
 use crate::robot::Robot;
@@ -9,6 +11,7 @@ use crate::stack::{Goal, Stack};
 use crate::task::JacobianMut;
 use crate::task_id::TaskId;
 use crate::task_vectors::TaskVectors;
+use crate::watch::Watch;
 
 #[derive(Debug)]
 pub(crate) struct Evaluation {
@@ -31,6 +34,8 @@ pub(crate) struct Evaluation {
     is_still_known: bool,
     /// The other tasks: those to be met, and those that move by themselves.
     others: Vec<TaskId>,
+    /// Still sets that are costly to measure, if they are not to be measured everywhere.
+    watch: Option<Box<Watch>>,
 }
 
 /// The Jacobian of a task, row after row, in the configuration of this number.
@@ -62,6 +67,7 @@ impl Evaluation {
             still: Vec::with_capacity(stack.len()),
             is_still_known: false,
             others: Vec::with_capacity(stack.len()),
+            watch: None,
         }
     }
 
@@ -134,6 +140,9 @@ impl Evaluation {
 
     fn move_to(&mut self, q: &[f64]) {
         if !self.is_at(q) {
+            if let Some(watch) = &mut self.watch {
+                watch.travel(self.kinematics.q(), q);
+            }
             self.kinematics.update(q);
             self.forget();
         }
@@ -149,10 +158,16 @@ impl Evaluation {
         if self.revision != Some(stack.revision()) {
             self.sort(stack);
         }
+        if let Some(watch) = &self.watch {
+            self.is_still_known &= !watch.is_stale(stack);
+        }
         if !self.is_still_known {
             for &id in &self.still {
                 let value = self.values.of_mut(id);
                 stack[id].task().value(&self.kinematics, value);
+            }
+            if let Some(watch) = &mut self.watch {
+                watch.look(stack, &self.kinematics, &mut self.values);
             }
             self.is_still_known = true;
         }
@@ -163,19 +178,46 @@ impl Evaluation {
         self.forget();
         self.still.clear();
         self.others.clear();
+        if let Some(watch) = &mut self.watch {
+            watch.clear();
+        }
         self.is_any_drifting = false;
         for (id, level) in stack.iter() {
             let is_moving = level.task().is_moving();
             self.is_any_drifting |= is_moving;
             self.drifts.of_mut(id).fill(0.0);
-            self.steepness[id.index()] = level.task().steepness(&self.kinematics);
+            let steepness = level.task().steepness(&self.kinematics);
+            self.steepness[id.index()] = steepness;
+            let watch = self.watch.as_mut();
             if is_moving || level.interval().is_none() {
                 self.others.push(id);
-            } else {
+            } else if !watch.is_some_and(|watch| watch.takes(stack, id, steepness)) {
                 self.still.push(id);
             }
         }
         self.revision = Some(stack.revision());
+    }
+
+    /// Sets that are so far inside that they cannot matter are not measured from now on.
+    pub(crate) fn measure_on_demand(&mut self, stack: &Stack) {
+        self.watch = Some(Box::new(Watch::new(stack, self.period)));
+        self.revision = None;
+    }
+
+    /// The sets of which `values` has a bound in the place of the value, if there may be any: it is on the
+    /// same side of the bounds in force as the value is, and less far inside.
+    #[inline]
+    pub(crate) fn bounded(&self) -> Option<&ActiveSet> {
+        self.watch.as_deref().map(Watch::bounded)
+    }
+
+    /// Measures them; the sets that it has measured.
+    #[inline]
+    pub(crate) fn measure(&mut self, stack: &Stack) -> ActiveSet {
+        match &mut self.watch {
+            None => ActiveSet::EMPTY,
+            Some(watch) => watch.measure(stack, &self.kinematics, &mut self.values),
+        }
     }
 
     /// The first task whose value, or drift, is not a finite number.

@@ -277,18 +277,34 @@ impl Landing {
         is_shortened: bool,
         qd: &mut JointVec,
     ) -> bool {
+        let bounded = approach.there.bounded();
+        if bounded.is_some_and(|bounded| bounded.intersects(&approach.held.tasks())) {
+            approach.there.measure(approach.stack);
+        }
         // Almost always the sides that are near decide alone.
         for near in [NEAR, f64::INFINITY] {
+            if near == f64::INFINITY {
+                approach.there.measure(approach.stack);
+            }
             self.gather(approach, near, is_shortened);
             if !self.find_change(approach, qd) {
                 return false;
             }
-            if self.change.iter().map(|speed| speed.abs()).sum::<f64>() <= self.horizon {
+            if !self.covers_change() && !approach.there.measure(approach.stack).is_empty() {
+                // What was left out may be farther away than its bounds said.
+                self.gather(approach, near, is_shortened);
+            }
+            if self.covers_change() {
                 add_scaled(qd, 1.0, &self.change);
                 return true;
             }
         }
         false
+    }
+
+    /// Whether the change keeps the sides that were left out.
+    fn covers_change(&self) -> bool {
+        self.change.iter().map(|speed| speed.abs()).sum::<f64>() <= self.horizon
     }
 
     /// The least change under the sides gathered and the joints' ranges.

@@ -90,6 +90,7 @@ mod task;
 mod task_id;
 mod task_vectors;
 mod trigonometry;
+mod watch;
 mod waypoints;
 
 pub use active::{ActiveSet, MAX_TASKS};

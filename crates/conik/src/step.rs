@@ -40,6 +40,8 @@ pub struct Step {
     pub(crate) reasons: Vec<Reason>,
     pub(crate) values: TaskVectors,
     pub(crate) errors: TaskVectors,
+    /// Sets whose values the tick had no need of.
+    pub(crate) unmeasured: ActiveSet,
 }
 
 /// Kinds of reasons that are not about a task or a joint's acceleration.
@@ -63,6 +65,7 @@ impl Step {
             reasons: Vec::with_capacity(2 * stack.len() + stack.dof() + REASONS_OF_THE_WHOLE),
             values: TaskVectors::zeros(stack),
             errors: TaskVectors::zeros(stack),
+            unmeasured: ActiveSet::EMPTY,
         }
     }
 
@@ -106,7 +109,13 @@ impl Step {
     }
 
     /// σ of a task at q [task's unit], one entry per component.
+    ///
+    /// NaN for a set that the tick had no need to measure, which is only so where the controller [was told
+    /// to](crate::Controller::measure_on_demand); [`Controller::measure`](crate::Controller::measure) has it.
     pub fn value(&self, task: TaskId) -> &[f64] {
+        if self.unmeasured.contains(task) {
+            return &[f64::NAN];
+        }
         self.values.of(task)
     }
 

@@ -50,6 +50,8 @@ impl Controller {
         let crossing_rate = match &self.rule {
             Rule::Search(search) => {
                 if !self.borders.is_at_border(task, sigma) {
+                    self.here.measure(&self.stack);
+                    let sigma = self.here.scalar(task);
                     let [lower, upper] = Side::both(task).map(|side| side.inside(&set, sigma));
                     return Reason::HoldsInside {
                         task,

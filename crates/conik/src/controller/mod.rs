@@ -1,6 +1,7 @@
 //! The controller: from a configuration to the next joint reference, once per period.
 
 mod explain;
+mod on_demand;
 
 use alloc::boxed::Box;
 
@@ -49,6 +50,8 @@ pub struct Controller {
     limits: Limits,
     rule: Rule,
     landing: Landing,
+    /// Where the last tick left values that were not needed unmeasured.
+    q: JointVec,
     /// q̇ and q + T q̇ while a tick is at work; in `step` they stand when it has succeeded.
     qd: JointVec,
     q_ref: JointVec,
@@ -173,6 +176,7 @@ impl Controller {
                 ModeRule::Cone => Rule::Nearest(Box::new(Nearest::new(&stack, &settings))),
             },
             landing: Landing::new(&stack, period),
+            q: JointVec::zeros(robot.dof()),
             qd: JointVec::zeros(robot.dof()),
             q_ref: JointVec::zeros(robot.dof()),
             step: Step::at_rest(&stack),
@@ -236,6 +240,10 @@ impl Controller {
         step.pivots = MAX_PIVOTS - pivots;
         step.landed = landed;
         step.values.copy_from(self.here.values());
+        if let Some(bounded) = self.here.bounded() {
+            step.unmeasured = *bounded;
+            copy(&mut self.q, q);
+        }
         step.errors.copy_from(self.here.errors());
         self.explain(&was_active, is_cut_off || pivots == 0);
         Ok(&self.step)
@@ -256,8 +264,8 @@ impl Controller {
         if rest_is_enough && self.barrier.is_at_ease() {
             return;
         }
-        self.barrier.gather_far(&self.stack, &mut self.here);
-        self.barrier.gather_far(&self.stack, &mut self.here);
+        self.barrier
+            .gather_far(&self.stack, &self.borders, &mut self.here);
         self.anchor.find(&mut AnchorTick {
             barrier: &mut self.barrier,
             limits: &self.limits,

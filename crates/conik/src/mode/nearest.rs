@@ -71,6 +71,19 @@ pub(crate) struct NearestTick<'a> {
     pub(crate) pivots: &'a mut usize,
 }
 
+impl NearestTick<'_> {
+    /// Whether a velocity keeps the sides that were left out.
+    fn covers(&mut self, velocity: &[f64]) -> bool {
+        self.barrier
+            .covers(self.stack, self.borders, self.evaluation, velocity)
+    }
+
+    fn gather_far(&mut self) {
+        self.barrier
+            .gather_far(self.stack, self.borders, self.evaluation);
+    }
+}
+
 impl Nearest {
     pub(crate) fn new(stack: &Stack, settings: &Settings) -> Self {
         let max_rows = stack
@@ -154,8 +167,8 @@ impl Nearest {
     /// answer, the velocity of the levels above stands.
     fn descend(&mut self, tick: &mut NearestTick<'_>, place: usize, velocity: &mut [f64]) {
         let mut solution = self.solve(tick, place, velocity);
-        if solution == Solution::Optimal && !tick.barrier.covers(self.program.velocity()) {
-            tick.barrier.gather_far(tick.stack, tick.evaluation);
+        if solution == Solution::Optimal && !tick.covers(self.program.velocity()) {
+            tick.gather_far();
             solution = self.solve(tick, place, velocity);
         }
         if solution == Solution::Optimal {

@@ -61,6 +61,8 @@ pub struct Level {
     damping: Damping,
     /// Tasks that may not be active together with this one.
     excluded: ActiveSet,
+    /// That of the stack when its parameters may have been changed last.
+    revision: u64,
 }
 
 impl Level {
@@ -86,6 +88,12 @@ impl Level {
             Goal::Set { interval, .. } => Some(interval),
             Goal::Equality { .. } => None,
         }
+    }
+
+    /// Another number after every access that may have changed the task's own parameters.
+    #[inline]
+    pub(crate) fn revision(&self) -> u64 {
+        self.revision
     }
 
     /// How it is damped near singularities, where it is a level of its own.
@@ -144,6 +152,7 @@ impl Stack {
                     },
                     damping: Damping::Automatic,
                     excluded: ActiveSet::EMPTY,
+                    revision: 0,
                 });
             }
         }
@@ -257,6 +266,7 @@ impl Stack {
             goal,
             damping: Damping::Automatic,
             excluded: ActiveSet::EMPTY,
+            revision: 0,
         });
         Ok(TaskId::new(self.levels.len() - 1))
     }

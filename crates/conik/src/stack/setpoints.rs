@@ -111,7 +111,9 @@ impl Setpoints<'_> {
     pub fn task_mut<T: Task>(&mut self, task: TaskId) -> Option<&mut T> {
         self.stack.changed.insert(task);
         self.stack.revision = self.stack.revision.wrapping_add(1);
-        let task: &mut dyn Any = &mut *self.stack.levels[task.index()].task;
+        let level = &mut self.stack.levels[task.index()];
+        level.revision = self.stack.revision;
+        let task: &mut dyn Any = &mut *level.task;
         task.downcast_mut()
     }
 

@@ -113,6 +113,12 @@ pub trait Task: Any + Debug + Send {
         f64::INFINITY
     }
 
+    /// Whether its value takes so long to compute that it is worth while to remember where it need not
+    /// be known: see [`Controller::measure_on_demand`](crate::Controller::measure_on_demand).
+    fn is_costly(&self) -> bool {
+        false
+    }
+
     /// Unit of the value, for people: `m`, `rad`, `-`.
     fn unit(&self) -> &'static str;
 

@@ -130,10 +130,19 @@ impl Task for ShapeDistance {
     /// A closest point is on its shape; seen from a joint of the other frame, that can be anywhere.
     fn steepness(&self, kinematics: &Kinematics) -> f64 {
         let extent = self.shape.extent();
-        match self.seen.from {
-            Frame::World if extent.is_finite() => kinematics.reach() + extent,
-            _ => kinematics.span() + extent.min(self.other.extent() + self.shift.norm()),
-        }
+        let (reach, arm) = match self.seen.from {
+            Frame::World if extent.is_finite() => (kinematics.reach(), extent),
+            _ => {
+                let other = self.other.extent() + self.shift.norm();
+                (kinematics.span(), extent.min(other))
+            }
+        };
+        // A joint that others follow turns the shape by more than it turns itself.
+        reach + kinematics.turning() * arm
+    }
+
+    fn is_costly(&self) -> bool {
+        true
     }
 
     fn unit(&self) -> &'static str {
