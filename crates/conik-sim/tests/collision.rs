@@ -322,13 +322,14 @@ fn each_mistake_is_named_placed_and_explained() {
 
 #[test]
 fn shapes_without_a_distance_and_obstacles_that_nothing_meets_are_refused() {
-    let can = "type = \"cylinder\"\nfrom_m = [0, 0, 0]\nto_m = [0, 0, 1]\nradius_m = 0.1\n";
-    let ball = "type = \"sphere\"\ncenter_m = [0.5, 0.5, 0]\nradius_m = 0.1\n";
+    let forearm =
+        "type = \"capsule\"\nfrom_m = [0, 0, 0.02]\nto_m = [0.392, 0, 0.02]\nradius_m = 0.05\n";
+    let plane = "type = \"half_space\"\npoint_m = [0, 0, 0]\nnormal = [0, 0, 1]\n";
     let shown =
         |text: &str| -> Vec<String> { mistakes(text).iter().map(ToString::to_string).collect() };
-    let found = shown(&GOOD.replacen(ball, can, 1));
+    let found = shown(&GOOD.replacen(forearm, plane, 1));
     assert!(
-        found.len() == 1 && found[0].contains("put a capsule"),
+        found.len() == 1 && found[0].contains("half-spaces have no end"),
         "{found:?}"
     );
     let (start, end) = (

@@ -241,7 +241,26 @@ fn distances_are_those_that_can_be_told_at_a_glance() {
     let cube = Cuboid::new(Pose::at(Vec3::new(0.0, 3.0, 2.0)), [2.0, 2.0, 2.0]);
     let far_cube = Cuboid::new(Pose::at(Vec3::new(5.0, 7.0, 2.0)), [2.0, 2.0, 2.0]);
     let can = Cylinder::new([0.0, 0.0, 4.0], [0.0, 0.0, 5.0], 0.5);
-    let cases: [(Shape, Shape, f64); 11] = [
+    let lying = Cylinder::new([-1.0, 0.0, 7.0], [3.0, 0.0, 7.0], 0.25);
+    let stout = Cylinder::new([3.0, 0.0, 8.0], [3.0, 0.0, 8.5], 2.0);
+    let cases: [(Shape, Shape, f64); 19] = [
+        // Wall, end and rim against face, edge and corner, then against each other.
+        (lying.into(), cube.into(), 20.0_f64.sqrt() - 0.25),
+        (can.into(), cube.into(), (1.5_f64.powi(2) + 1.0).sqrt()),
+        (cube.into(), can.into(), (1.5_f64.powi(2) + 1.0).sqrt()),
+        (can.into(), lying.into(), 1.75),
+        (lying.into(), can.into(), 1.75),
+        (
+            can.into(),
+            stout.into(),
+            (0.5_f64.powi(2) + 3.0_f64.powi(2)).sqrt(),
+        ),
+        (lying.into(), stout.into(), 0.75),
+        (
+            can.into(),
+            Cylinder::new([0.0, 0.0, 4.9], [0.0, 0.0, 6.0], 0.1).into(),
+            -0.1,
+        ),
         (ball.into(), floor.into(), 0.7),
         (rod.into(), floor.into(), 1.8),
         (cube.into(), floor.into(), 0.9),

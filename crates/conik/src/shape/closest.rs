@@ -1,6 +1,7 @@
 //! Closest points of two shapes: which pair is measured how.
 
 use super::boxes;
+use super::flat_ends;
 use super::segment::Segment;
 use super::{Cylinder, HalfSpace, Shape};
 use crate::geometry::Vec3;
@@ -15,8 +16,8 @@ pub struct Closest {
     /// The distance [m], negative where they overlap.
     pub distance: f64,
     /// The gradient of the distance in the place of the first shape: the direction, of length 1, in which it
-    /// moves away from the other. Shorter where a capsule is so deep in a cylinder that two sides of
-    /// it count. Where closest points are not unique, that of one pair of them.
+    /// moves away from the other. Shorter where a cylinder is a part of the overlap and what is deepest in
+    /// the other shape is so deep that two sides of it count. Where closest points are not unique, that of one pair of them.
     pub normal: Vec3,
     /// The point of the first shape that is closest to the other, or deepest in it [m].
     pub on_first: Vec3,
@@ -70,6 +71,11 @@ pub(super) fn between(first: &Shape, second: &Shape) -> Option<Closest> {
         (_, Shape::HalfSpace(half_space)) => above(first, half_space),
         (Shape::HalfSpace(half_space), _) => above(second, half_space).map(Closest::swapped),
         (Shape::Cuboid(a), Shape::Cuboid(b)) => Some(boxes::boxes(a, b)),
+        (Shape::Cylinder(a), Shape::Cylinder(b)) => Some(cylinders(a, b)),
+        (Shape::Cylinder(cylinder), Shape::Cuboid(cuboid)) => {
+            Some(flat_ends::closest(cylinder, |point| cuboid.depth(point)))
+        }
+        (Shape::Cuboid(_), Shape::Cylinder(_)) => between(second, first).map(Closest::swapped),
         (_, Shape::Cuboid(cuboid)) => {
             let (axis, radius) = first.rounded()?;
             Some(boxes::segment_and_box(&axis, cuboid).grown(radius, 0.0))
@@ -121,6 +127,20 @@ fn above(shape: &Shape, half_space: &HalfSpace) -> Option<Closest> {
         on_first,
         on_second: on_first - half_space.normal * distance,
     })
+}
+
+/// Where they overlap, the deepest point of either in the other.
+fn cylinders(a: &Cylinder, b: &Cylinder) -> Closest {
+    let closest = flat_ends::closest(a, |point| b.depth(point));
+    if closest.distance > 0.0 {
+        return closest;
+    }
+    let of_other = flat_ends::closest(b, |point| a.depth(point));
+    if of_other.distance < closest.distance {
+        of_other.swapped()
+    } else {
+        closest
+    }
 }
 
 fn segment_and_cylinder(segment: &Segment, cylinder: &Cylinder) -> Closest {

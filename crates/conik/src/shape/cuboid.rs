@@ -54,6 +54,27 @@ impl Cuboid {
         )
     }
 
+    /// How far a point is outside [m], negative inside, with the gradient of that.
+    ///
+    /// Convex in the point: inside, the nearest face counts.
+    pub(super) fn depth(&self, point: Vec3) -> (f64, Vec3) {
+        let own = self.pose.untransform(point);
+        let away = own - self.nearest(own);
+        let distance = away.norm();
+        if distance > 0.0 {
+            return (distance, self.pose.rotate(away * (1.0 / distance)));
+        }
+        let faces = own.to_array().into_iter().zip(self.half.to_array());
+        let mut best = (f64::NEG_INFINITY, Vec3::ZERO);
+        for (axis, (along, half)) in AXES.into_iter().zip(faces) {
+            let height = along.abs() - half;
+            if height > best.0 {
+                best = (height, axis * 1.0_f64.copysign(along));
+            }
+        }
+        (best.0, self.pose.rotate(best.1))
+    }
+
     /// The edge through a corner along one of the axes, in the box's frame.
     pub(super) fn edge(&self, corner: Vec3, axis: usize) -> Segment {
         let along = AXES[axis];

@@ -1,6 +1,7 @@
 //! Line segments: the middle lines of capsules, and the edges of boxes.
 
 use super::cuboid::Cuboid;
+use super::descent::{self, Place};
 use crate::geometry::{Pose, Vec3};
 
 /// The points start + t · along, 0 ≤ t ≤ 1.
@@ -9,27 +10,6 @@ pub(super) struct Segment {
     pub(super) start: Vec3,
     pub(super) along: Vec3,
 }
-
-/// Where a convex function is least along a segment.
-pub(super) struct Least {
-    pub(super) value: f64,
-    /// Of the function; where it has a kink, the one of its gradients that does not lead along the segment.
-    pub(super) gradient: Vec3,
-    pub(super) point: Vec3,
-}
-
-/// A place on a segment, and what a function is there.
-#[derive(Clone, Copy)]
-struct Place {
-    t: f64,
-    value: f64,
-    gradient: Vec3,
-    /// How it grows along the segment.
-    slope: f64,
-}
-
-/// Halving alone finds a place in [0, 1] to rounding in half as many.
-const MOST_EVALUATIONS: usize = 110;
 
 impl Segment {
     pub(super) fn new(start: Vec3, end: Vec3) -> Self {
@@ -139,57 +119,20 @@ impl Segment {
     }
 
     /// Where a convex function, of which `at` gives value and gradient, is least along the segment.
-    ///
-    /// Its slope never falls: secants and halving by turns, at most 110 evaluations, close in on where it
-    /// changes sign. Where it leaps there, as over an edge, so do gradients, and the one between them
-    /// that does not lead along the segment is the gradient of the least value.
-    pub(super) fn least(&self, at: impl Fn(Vec3) -> (f64, Vec3)) -> Least {
+    pub(super) fn least(&self, at: impl Fn(Vec3) -> (f64, Vec3)) -> Place {
         let place = |t: f64| {
-            let (value, gradient) = at(self.at(t));
+            let point = self.at(t);
+            let (value, gradient) = at(point);
             Place {
                 t,
                 value,
                 gradient,
+                point,
                 slope: gradient.dot(self.along),
             }
         };
-        let found = |place: Place| Least {
-            value: place.value,
-            gradient: place.gradient,
-            point: self.at(place.t),
-        };
         let small = 1e-15 * self.along.norm();
-        let (mut low, mut high) = (place(0.0), place(1.0));
-        if low.slope >= 0.0 {
-            return found(low);
-        }
-        if high.slope <= 0.0 {
-            return found(high);
-        }
-        for i in 2..MOST_EVALUATIONS {
-            let width = high.t - low.t;
-            let secant = low.t - low.slope * width / (high.slope - low.slope);
-            let middle = low.t + 0.5 * width;
-            let t = if i % 2 == 0 { secant } else { middle };
-            if !(low.t < t && t < high.t) {
-                break;
-            }
-            let here = place(t);
-            if here.slope.abs() <= small {
-                return found(here);
-            }
-            *(if here.slope < 0.0 {
-                &mut low
-            } else {
-                &mut high
-            }) = here;
-        }
-        let share = -low.slope / (high.slope - low.slope);
-        Least {
-            value: low.value + (high.value - low.value) * share,
-            gradient: low.gradient + (high.gradient - low.gradient) * share,
-            point: self.at(low.t + (high.t - low.t) * share),
-        }
+        descent::least(place(0.0), place(1.0), small, place)
     }
 }
 
