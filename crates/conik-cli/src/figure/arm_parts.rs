@@ -105,12 +105,7 @@ impl<'a> Arm<'a> {
                 .lines
                 .push(line_to(&joints, carrier, base.origin, pose.origin));
         }
-        let plate = 0.02 * self.size;
-        let (from, to) = (
-            base.origin - base.z_axis * plate,
-            base.origin + base.z_axis * plate,
-        );
-        let plate = Cylinder::new(from, to, 0.075 * self.size);
+        let plate = Cylinder::new(base.origin, top, 2.2 * self.radius(0, 1));
         drawn.solids.push((plate.into(), JOINT));
         drawn
     }
@@ -207,4 +202,41 @@ fn line_to(joints: &[PlacedJoint], last: Option<usize>, base: Vec3, tool: Vec3) 
     }
     line.push(base.to_array());
     line
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lines_lead_from_tools_to_the_base() {
+        for name in ["ur5-paper", "panda", "iiwa14", "gen3", "ur20"] {
+            let robot = Robot::builtin(name).unwrap();
+            let q: Vec<f64> = (0..robot.dof()).map(|joint| 0.3 * joint as f64).collect();
+            let mut kinematics = Kinematics::new(&robot);
+            kinematics.update(&q);
+            let arm = Arm::new(&robot, &[]);
+            let lines = arm.at(&q).lines;
+            let [line] = &lines[..] else {
+                panic!("{name}: {} branches", lines.len())
+            };
+            let tool = kinematics.world_from(Frame::Tool).origin;
+            let ends = (line.first().copied(), line.last().copied());
+            assert_eq!(ends, (Some(tool.to_array()), Some([0.0; 3])), "{name}");
+            assert_eq!(line.len(), robot.dof() + 2, "{name}");
+            assert!((0.5..3.0).contains(&arm.size), "{name}: {}", arm.size);
+        }
+    }
+
+    #[test]
+    fn no_part_of_an_upright_arm_is_below_its_base() {
+        let robot = Robot::builtin("panda").unwrap();
+        let q = [0.0, 0.2, 0.0, -1.8, 0.0, 2.0, 0.7];
+        let (x, z) = (Pose::IDENTITY.x_axis, Pose::IDENTITY.z_axis);
+        for (shape, _) in Arm::new(&robot, &[]).at(&q).solids {
+            for point in super::super::solid::rim(&shape, x, z) {
+                assert!(point[2] > -1e-9, "{shape:?}");
+            }
+        }
+    }
 }

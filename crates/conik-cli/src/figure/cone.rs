@@ -106,3 +106,25 @@ impl Cone {
         marks.close_sheet();
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rim_is_at_the_half_angle_all_round() {
+        let cone = Cone {
+            tip: Vec3::new(0.1, -0.2, 0.3),
+            axis: Vec3::new(0.3, 0.4, 0.0),
+            half_angle_rad: 0.35,
+            tint: "#000000",
+            sheet: 1.0,
+        };
+        for point in cone.rim() {
+            let side = Vec3::from(point) - cone.tip;
+            let cos = side.dot(cone.axis) / (side.norm() * cone.axis.norm());
+            assert!((cos.acos() - 0.35).abs() < 1e-9, "{point:?}");
+            assert!((side.norm() - 0.5).abs() < 1e-9, "{point:?}");
+        }
+    }
+}

@@ -150,3 +150,43 @@ fn lengths(camera: &Camera, from: Vector, to: Vector) -> (f64, f64) {
         right.hypot(up).hypot(camera.nearness(away)),
     )
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::figure::obstacles::Surroundings;
+    use crate::figure::scene::Piece;
+    use conik::Cuboid;
+    use conik::{Pose, Vec3};
+
+    #[test]
+    fn the_path_is_looked_at_past_what_would_hide_it() {
+        let points = (0..=20).map(|k| [0.0, 0.05 * f64::from(k), 0.0]).collect();
+        let scene = Scene {
+            path: vec![Piece { mode: 0, points }],
+            around: Surroundings::default(),
+            targets: Vec::new(),
+            shows_base: false,
+            origin: "base",
+            low: [-1.0; 3],
+            high: [1.0; 3],
+            step: 0.2,
+        };
+        for side in [-1.0, 1.0] {
+            let screen = Pose::at(Vec3::new(0.3 * side, 0.5, 0.0));
+            let screen = Cuboid::new(screen, [0.02, 4.0, 4.0]).into();
+            let viewpoint = Viewpoint {
+                scene: &scene,
+                figures: &[],
+                last: Vec::new(),
+                screens: &[screen],
+            };
+            let (azimuth, elevation) = viewpoint.best_deg();
+            let toward = Camera::at(azimuth, elevation).toward();
+            assert!(
+                toward.x * side < 0.0,
+                "from {azimuth}, the screen on side {side}"
+            );
+        }
+    }
+}
