@@ -294,3 +294,20 @@ speed_deg_per_s = 0.1
     };
     assert_eq!(out.kind, speed);
 }
+
+#[test]
+fn only_joints_that_turn_have_limits_in_degrees() {
+    let limited = |joint: &str| {
+        let task = "[[task]]\nname = \"it\"\ntype = \"joint\"\nmax_deg = 1\ngain_per_s = 1\n";
+        format!("{SCENARIO}{task}joint = \"{joint}\"\n")
+    };
+    let cell = Cell::new("turns", TORSO, &limited("waist"));
+    Scenario::load(cell.file()).expect("it turns");
+    let cell = Cell::new("slides", TORSO, &limited("reach out"));
+    let told = Scenario::load(cell.file())
+        .expect_err("it slides")
+        .to_string();
+    let part =
+        "task[2] \"it\".max_deg: joint 2 slides: its position is in m, not in degrees; give `max`";
+    assert!(told.contains(part), "{told}");
+}
