@@ -79,6 +79,12 @@ type = "position"
 target_m = [1, 2, 3]
 gain_per_s = 1
 [[task]]
+name = "cell"
+type = "workspace"
+min_m = [0, 0, 0]
+max_m = [1, 1, 1]
+gain_per_s = 1
+[[task]]
 name = "grasp"
 type = "pose"
 target_m = [0, 0, 1]
@@ -196,6 +202,15 @@ const MISTAKES: &[(&str, &str)] = &[
         "desired_deg = 10\nmax_deg = 20\ngain_per_s = 1",
     ),
     ("max = 0.2", "desired_deg = 10\ndesired = 1\ngain_per_s = 1"),
+    ("min_m = [0, 0, 0]", ""),
+    ("min_m = [0, 0, 0]", "center_m = [0, 0, 0]"),
+    ("min_m = [0, 0, 0]", "min_m = [0, 0, 0]\nradius_m = 1"),
+    ("min_m = [0, 0, 0]", "min_m = [0, 0, 0]\nmin = 1"),
+    (
+        "min_m = [0, 0, 0]\nmax_m = [1, 1, 1]",
+        "center_m = [0, 0, 0]",
+    ),
+    ("min_m = [0, 0, 0]\nmax_m = [1, 1, 1]", ""),
     ("desired_rpy_deg = [0, 0, 9]", ""),
     (
         "desired_rpy_deg = [0, 0, 9]",
@@ -288,7 +303,7 @@ fn reader_and_schema_know_the_same_keys() {
     }
     let types = &schema["properties"]["task"]["items"]["oneOf"];
     let types = types.as_array().expect("a list of types");
-    assert_eq!(types.len(), 18);
+    assert_eq!(types.len(), 19);
     for task_type in types {
         let name = &task_type["properties"]["type"]["const"];
         let text = format!("[[task]]\ntype = {name}\nxyzzyxyzzy = 1");

@@ -32,6 +32,7 @@ const TYPES: &[(&str, &str)] = &[
     ),
     ("plane", "normal = [0, -1, 3]\noffset_m = -0.5\nmin = -1"),
     ("height", "min = -1"),
+    ("workspace", "center_m = [0, 0, 0]\nradius_m = 2"),
     ("shape_distance", "shapes = [\"hand\", \"post\"]\nmin = 0"),
     (
         "posture",
@@ -95,8 +96,12 @@ const IN_DEGREES: &[(&str, &str, &str, &str)] = &[
     ),
 ];
 
-/// Types with what moves of them.
+/// Types with further keys: what moves of them, waypoints, a box.
 const MOVING: &[(&str, &str)] = &[
+    (
+        "workspace",
+        "min_m = [-2, -2, -2]\nmax_m = [2, 2, 2]\nrecovery_per_s = 0.1",
+    ),
     (
         "position",
         "target_m = [0.4, 0, 0]\nvelocity_m_per_s = [0, 0.1, 0]\nmoves_until_s = 2\ngain_per_s = 1",
@@ -252,7 +257,8 @@ fn every_type_runs() {
             q = step.q_ref;
         }
         assert!(q.is_finite(), "{name}");
-        let is_set = text.contains("max = ") || text.contains("min = ");
+        let of_sets = ["max = ", "min = ", "radius_m = 2", "max_m = "];
+        let is_set = of_sets.iter().any(|key| text.contains(key));
         assert_eq!(
             q == experiment.q0,
             is_set,
@@ -368,6 +374,34 @@ const MISTAKES: &[(&str, &str, &str)] = &[
     ),
     ("manipulability", "max = -1", "its values are never below 0"),
     ("elbow", "direction = [0, 0, 1]\nmin = 0", "shoulder"),
+    (
+        "workspace",
+        "min_m = [0, 0, 0.5]\nmax_m = [1, 1, 0.4]",
+        "0.5 in `min_m` is greater than 0.4 in `max_m`: nothing is in this box",
+    ),
+    (
+        "workspace",
+        "recovery_per_s = 0.1",
+        "this workspace has no shape",
+    ),
+    ("workspace", "center_m = [0, 0, 0]", "radius_m"),
+    ("workspace", "max_m = [0, 0, 0]", "min_m"),
+    (
+        "workspace",
+        "center_m = [0, 0, 0]\nradius_m = -1",
+        "out of range",
+    ),
+    (
+        "workspace",
+        "center_m = [0, 0, 0]\nmax_m = [0, 0, 0]",
+        "`center_m` is of a sphere and `max_m` of a box",
+    ),
+    ("workspace", "max = 1", "it is a region"),
+    (
+        "workspace",
+        "center_m = [0, 0, 0]\nradius_m = 1\nframe = \"lnk_3\"",
+        "did you mean \"link_3\"?",
+    ),
     (
         "pointing_angle",
         "direction = [0, 0, 1]\nmin = 0.1\nmin_deg = 4",

@@ -32,6 +32,15 @@ pub(super) fn read(
                 gain_per_s: gain_per_s?,
             })
         }
+        GoalShape::Region => {
+            let recovery = table.number(&keys::RECOVERY_PER_S, found);
+            Some(GoalConfig::Set {
+                min: None,
+                max: None,
+                recovery_per_s: recovery.map(Some).or(None)?,
+                gain_per_s: gain?,
+            })
+        }
         GoalShape::Scalar(least, most) => {
             let values = Values {
                 least,

@@ -16,6 +16,16 @@ pub(super) fn alternatives(task_type: &TaskType) -> Value {
             { "required": ["desired_deg", "gain_per_s"] },
             { "required": ["desired_rad", "gain_per_s"] },
         ]),
+        GoalShape::Region => json!([
+            { "required": ["center_m", "radius_m"], "not": { "anyOf": [
+                { "required": ["min_m"] },
+                { "required": ["max_m"] },
+            ] } },
+            { "required": ["min_m", "max_m"], "not": { "anyOf": [
+                { "required": ["center_m"] },
+                { "required": ["radius_m"] },
+            ] } },
+        ]),
         GoalShape::Scalar(..) => scalar(task_type),
     }
 }

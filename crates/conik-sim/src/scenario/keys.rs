@@ -160,6 +160,8 @@ pub(super) const DESIRED_VALUE: &[&Key] = &[&DESIRED, &ANGLE_DESIRED_DEG];
 pub(super) const LIMITS: &[&Key] = &[&MIN, &MAX, &MIN_DEG, &MAX_DEG];
 /// What is asked of a task that has it among its own keys, and no error that a gain could act on.
 pub(super) const OWN_GOAL: &[&Key] = &[&DAMPING];
+/// What can be asked of a region: how fast it is entered.
+pub(super) const REGION_GOAL: &[&Key] = &[&RECOVERY_PER_S, &GAIN_PER_S, &DAMPING];
 /// What can be asked of several joints.
 pub(super) const POSTURE_GOAL: &[&Key] = &[&DESIRED_DEG, &DESIRED_RAD, &GAIN_PER_S, &DAMPING];
 /// What can be asked of a task whose value is a point, an orientation, or both.

@@ -121,14 +121,18 @@ impl<'t> Mistakes<'t> {
         }
         let start = floor_char(self.text, span.start);
         let end = ceil_char(self.text, span.end).max(start);
-        self.kept.push(Mistake {
+        let mistake = Mistake {
             span: start..end,
             line: 0,
             column: 0,
             key: key.into(),
             what: what.into(),
             help: help.into(),
-        });
+        };
+        // Sets that come of one task of the file share its mistakes.
+        if !self.kept.contains(&mistake) {
+            self.kept.push(mistake);
+        }
     }
 
     /// Nothing was found wrong so far.
@@ -221,10 +225,20 @@ mod tests {
     }
 
     #[test]
+    fn the_same_mistake_is_told_once() {
+        let mut found = Mistakes::new("xy");
+        for span in [0..1, 0..1, 1..2, 0..1] {
+            found.add(span, "k", "w", "h");
+        }
+        let errors = found.into_result(Some(())).expect_err("there are two");
+        assert_eq!((errors.mistakes().len(), errors.more()), (2, 0));
+    }
+
+    #[test]
     fn noise_is_counted_and_cut_short() {
         let mut found = Mistakes::new("x");
-        for _ in 0..1000 {
-            found.add(0..1, "k", "w", "h");
+        for nth in 0..1000 {
+            found.add(0..1, "k", format!("w {nth}"), "h");
         }
         let errors = found
             .into_result(Some(()))

@@ -56,6 +56,7 @@ mod urdf_file;
 mod urdf_shapes;
 mod value;
 mod waypoints;
+mod workspace;
 mod write;
 mod written;
 

@@ -136,7 +136,7 @@ fn read_file(file: &Table, folder: &Path, found: &mut Mistakes) -> Option<Scenar
             .map(|tables| {
                 let tasks = tables
                     .iter()
-                    .map(|table| task::read(table, surroundings, found));
+                    .flat_map(|table| task::read(table, surroundings, found));
                 tasks.collect()
             });
     if let Some(tasks) = &tasks {

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use super::config::TaskConfig;
+use super::config::{GoalConfig, TaskConfig, TaskKind};
 use super::damping::{self, Damping};
 use super::frames;
 use super::goal;
@@ -19,9 +19,10 @@ use super::suggest::nearest;
 use super::table::{Table, unknown_name};
 use super::task_types::{self, GoalShape, TaskType};
 use super::waypoints::{Counts, WAYPOINTS, first_of};
+use super::workspace;
 
 /// What was found in one `[[task]]`.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct ReadTask {
     /// The task, if everything in it is right.
     pub(super) config: Option<TaskConfig>,
@@ -54,7 +55,12 @@ pub(super) enum Role {
     Unclear,
 }
 
-pub(super) fn read(table: &Table, surroundings: Surroundings, found: &mut Mistakes) -> ReadTask {
+/// Reads one `[[task]]`: what it is, or the sets of which it consists.
+pub(super) fn read(
+    table: &Table,
+    surroundings: Surroundings,
+    found: &mut Mistakes,
+) -> Vec<ReadTask> {
     let mut table = table.clone();
     if let Some(name) = table
         .entries
@@ -84,18 +90,20 @@ pub(super) fn read(table: &Table, surroundings: Surroundings, found: &mut Mistak
         None => goal::look_over(&table, found),
     };
     let damping = damping::read(&table, found).or(Damping::default());
-    let config = || {
+    let is_region = task_type.is_some_and(|it| it.goal == GoalShape::Region);
+    let parts = is_region.then(|| workspace::read(&table, found)).flatten();
+    let config = |name: &Placed<String>, kind: TaskKind, goal: GoalConfig| {
         Some(TaskConfig {
-            name: name.as_ref()?.value.clone(),
-            kind: kind?,
-            frames: frames?,
+            name: name.value.clone(),
+            kind,
+            frames: frames.clone()?,
             motion: motion?,
-            goal: goal?,
+            goal,
             damping: damping?,
         })
     };
-    ReadTask {
-        config: config(),
+    let mut task = ReadTask {
+        config: None,
         role: role(&table, task_type),
         has_gain: table.has(&keys::GAIN_PER_S),
         recovery: place_of(&table, &keys::RECOVERY_PER_S),
@@ -104,7 +112,27 @@ pub(super) fn read(table: &Table, surroundings: Surroundings, found: &mut Mistak
         name,
         header: table.header.clone(),
         path: table.path,
-    }
+    };
+    let (Some(name), Some(goal)) = (task.name.clone(), goal) else {
+        return vec![task];
+    };
+    let Some(parts) = parts else {
+        task.config = kind.and_then(|kind| config(&name, kind, goal));
+        return vec![task];
+    };
+    let of_part = |part: workspace::Part| {
+        let name = Placed {
+            value: format!("{}{}", name.value, part.suffix),
+            ..name.clone()
+        };
+        let goal = part.goal(&goal);
+        ReadTask {
+            config: config(&name, part.kind, goal),
+            name: Some(name),
+            ..task.clone()
+        }
+    };
+    parts.into_iter().map(of_part).collect()
 }
 
 /// Where the value of a key stands, if it does.
@@ -117,8 +145,9 @@ fn role(table: &Table, task_type: Option<&TaskType>) -> Role {
     let places = [&keys::TARGET_M, &keys::WAYPOINTS_M];
     let has_desired = first_of(table, keys::DESIRED_VALUE).or(first_of(table, &places));
     let has_desired = has_desired.is_some();
-    match task_type {
-        Some(task_type) if !matches!(task_type.goal, GoalShape::Scalar(..)) => Role::Equality,
+    match task_type.map(|it| it.goal) {
+        Some(GoalShape::Region) => Role::Set,
+        Some(goal) if !matches!(goal, GoalShape::Scalar(..)) => Role::Equality,
         _ => match (has_desired, has_limits) {
             (true, false) => Role::Equality,
             (false, true) => Role::Set,
@@ -166,6 +195,10 @@ fn refuse_unknown_keys(table: &Table, task_type: Option<&'static TaskType>, foun
             matches!(task_type.goal, GoalShape::Place(Counts { orientation, .. }) if !orientation);
         let is_scalar = matches!(task_type.goal, GoalShape::Scalar(..));
         Some(match name {
+            "min" | "max" | "desired" if task_type.goal == GoalShape::Region => (
+                format!("a task of type {this:?} has no `{name}`: it is a region"),
+                "give `center_m` and `radius_m`, or `min_m` and `max_m`".to_owned(),
+            ),
             "min" | "max" | "min_deg" | "max_deg" | "recovery_per_s" if !is_scalar && !is_point => (
                 format!("a task of type {this:?} cannot be a set"),
                 "sets are of one number: take type \"orientation_angle\", \"coordinate\" or \"joint\""

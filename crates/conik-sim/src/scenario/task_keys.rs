@@ -134,6 +134,22 @@ pub(super) const OFFSET_M: Key = Key::new(
     "-0.3",
 );
 
+/// What workspaces have.
+pub(super) const MIN_M: Key = Key::new(
+    "min_m",
+    "m",
+    "The corner of the box with the least coordinates, in the axes of the world or of `relative_to`",
+    Holds::Vector(Range::SANE),
+    "[0.2, -0.5, 0.05]",
+);
+pub(super) const MAX_M: Key = Key::new(
+    "max_m",
+    "m",
+    "The corner of the box with the greatest coordinates",
+    Holds::Vector(Range::SANE),
+    "[0.8, 0.5, 0.9]",
+);
+
 /// What the types have that concern several joints.
 pub(super) const JOINTS: Key = Key::new(
     "joints",

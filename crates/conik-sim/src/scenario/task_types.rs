@@ -11,7 +11,7 @@ use super::mistake::Mistakes;
 use super::robots::RobotFacts;
 use super::table::Table;
 use super::waypoints::Counts;
-use super::{arm_types, orientation_types, shape_distance};
+use super::{arm_types, orientation_types, shape_distance, workspace};
 
 /// A type of task.
 #[derive(Debug)]
@@ -70,6 +70,8 @@ pub(super) enum GoalShape {
     Own,
     /// A position for each of some joints; never a set.
     Posture,
+    /// Staying inside what its own keys say; always a set.
+    Region,
 }
 
 impl TaskType {
@@ -85,6 +87,7 @@ impl TaskType {
             GoalShape::Scalar(..) => keys::SCALAR_GOAL,
             GoalShape::Own => keys::OWN_GOAL,
             GoalShape::Posture => keys::POSTURE_GOAL,
+            GoalShape::Region => keys::REGION_GOAL,
         }
     }
 
@@ -222,6 +225,7 @@ pub(super) const ALL: &[TaskType] = &[
         ..PLAIN
     },
     shape_distance::SHAPE_DISTANCE,
+    workspace::WORKSPACE,
     arm_types::POSTURE,
     arm_types::JOINT_SPEED,
     arm_types::MANIPULABILITY,
