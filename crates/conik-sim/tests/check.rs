@@ -143,3 +143,29 @@ fn a_first_task_that_no_joint_moves_is_not_said_to_depend_on_others() {
         "{doubts:?}"
     );
 }
+
+#[test]
+fn an_elbow_set_with_half_a_turn_inside_is_doubted() {
+    let ball = "type = \"distance\"\npoint_m = [0.25, 0.2, -0.23]\nmin = 0.1";
+    let elbow = |bounds: &str| {
+        format!(
+            "type = \"elbow\"\nshoulder = \"link_1\"\nelbow = \"link_2\"\nwrist = \"link_4\"\n\
+             direction = [0, 0, 1]\n{bounds}"
+        )
+    };
+    let is_doubted = |bounds: &str| {
+        let doubts = doubts(ball, &elbow(bounds));
+        doubts
+            .iter()
+            .any(|doubt| doubt.contains("half a turn inside"))
+    };
+    for bounds in [
+        "min = -3",
+        "max = 3",
+        "min = 3\nmax = 3.3",
+        "min = -4\nmax = 3",
+    ] {
+        assert!(is_doubted(bounds), "{bounds}");
+    }
+    assert!(!is_doubted("min = -3.1\nmax = 3.1"));
+}

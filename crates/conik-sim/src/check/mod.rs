@@ -3,11 +3,15 @@
 mod obstacles;
 mod singular;
 
+use std::f64::consts::PI;
+
 use conik::{Frame, Goal, Kinematics, Stack, TaskId, dependent_tasks};
 
 use crate::experiment::Experiment;
 use crate::joint_limits::LIMIT;
-use crate::scenario::{Border, Choice, Control, ModeRule, Recursion, Scenario};
+use crate::scenario::{
+    Border, Choice, Control, GoalConfig, ModeRule, Recursion, Scenario, TaskKind,
+};
 use obstacles::{
     exclusive_obstacles_that_meet, goals_in_obstacles, obstacles_too_fast, targets,
     unused_obstacles,
@@ -52,6 +56,7 @@ pub fn find(scenario: &Scenario, experiment: &Experiment) -> Findings {
         exclusive_obstacles_that_meet(scenario, &mut doubts);
     }
     out_of_reach(scenario, experiment, &mut doubts);
+    elbow_jumps(scenario, &mut doubts);
     no_equality(stack, &mut doubts);
     Findings {
         tool_m: kinematics.world_from(Frame::Tool).origin.to_array(),
@@ -174,6 +179,24 @@ fn out_of_reach(scenario: &Scenario, experiment: &Experiment, doubts: &mut Vec<S
             doubts.push(format!(
                 "{target} is {:.3} m from the base, the arm reaches {reach:.3} m at most",
                 place.norm()
+            ));
+        }
+    }
+}
+
+/// At ±π the angle of an elbow goes on at ∓π: a set that has it inside is left there all at once.
+fn elbow_jumps(scenario: &Scenario, doubts: &mut Vec<String>) {
+    let is_within = |bound: Option<f64>| bound.is_some_and(|bound| bound.abs() < PI);
+    for task in &scenario.tasks {
+        let (TaskKind::Elbow { .. }, GoalConfig::Set { min, max, .. }) = (&task.kind, &task.goal)
+        else {
+            continue;
+        };
+        if !is_within(*min) || !is_within(*max) {
+            doubts.push(format!(
+                "`{}` has half a turn inside, where the angle jumps: give `min` and `max`, both less than \
+                 half a turn, and another `direction` if need be",
+                task.name
             ));
         }
     }
