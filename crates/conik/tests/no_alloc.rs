@@ -97,6 +97,14 @@ fn large(settings: Settings) -> Controller {
         stack.set("forearm/floor", forearm_to(floor.into()), 0.01..)?;
         let hand_to_crate = ShapeDistance::between(Frame::Tool, hand, crate_);
         stack.set("hand/crate", hand_to_crate, 0.01..)?;
+        let wrist = Cylinder::new([0.0; 3], [0.0, 0.0, 0.08], 0.04);
+        for (name, other) in [
+            ("wrist/crate", Shape::from(crate_)),
+            ("wrist/can", can.into()),
+        ] {
+            let distance = ShapeDistance::between(Frame::Link(8), wrist, other);
+            stack.set(name, distance, 0.01..)?;
+        }
         let to_upper_arm =
             ShapeDistance::between(Frame::Tool, hand, forearm).relative_to(Frame::Link(3));
         stack.set("hand/arm", to_upper_arm, 0.01..)?;
@@ -171,7 +179,8 @@ fn run_large(mut controller: Controller, settings: Settings) -> usize {
     let before = allocations();
     let mut most_active = 0;
     for _ in 0..100 {
-        let step = controller.step(&q).expect("finite");
+        controller.step(&q).expect("finite");
+        let step = controller.measure();
         most_active = most_active.max(step.active.len());
         q = step.q_ref;
     }
@@ -185,7 +194,14 @@ fn no_tick_allocates() {
         for number in 1..=3 {
             assert!(run_example(number, settings) >= 1, "sets were active");
         }
-        for (controller, least) in [(large(settings), 2), (of_all_types(settings), 1)] {
+        let mut on_demand = large(settings);
+        on_demand.measure_on_demand();
+        let controllers = [
+            (large(settings), 2),
+            (on_demand, 2),
+            (of_all_types(settings), 1),
+        ];
+        for (controller, least) in controllers {
             let active = run_large(controller, settings);
             assert!(active >= least, "{active} sets were active, {settings:?}");
         }

@@ -37,7 +37,17 @@ impl Words<'_> {
 }
 
 impl Scene {
+    #[allow(dead_code, reason = "not every program that has scenes has plain ones")]
     pub fn new(text: &str, settings: Settings) -> Self {
+        Self::crowded(text, settings, |_, _, _| ())
+    }
+
+    /// The same, with more sets, which are added at the start.
+    pub fn crowded(
+        text: &str,
+        settings: Settings,
+        add: impl FnOnce(&Robot, &[f64], &mut Stack),
+    ) -> Self {
         let mut words = Words(text.split_whitespace());
         let (dof, sets): (usize, usize) = (words.read(), words.read());
         let rows: Vec<DhRow> = (0..dof)
@@ -53,6 +63,7 @@ impl Scene {
                 .set(&format!("set_{i}"), distance, words.read::<f64>()..)
                 .expect("a frame of the robot");
         }
+        add(&robot, &start, &mut stack);
         let position = stack
             .equality("position", Position::of_tool(), &p0, GAIN)
             .expect("three finite numbers");
