@@ -70,6 +70,11 @@ pub fn draw(run: &Run, scene: &Scene, view: &View, marks: &mut Marks, placement:
         for obstacle in scene.standing() {
             name_shape(&obstacle.name, &obstacle.shape, view, marks, placement);
         }
+        for cell in &scene.around.cells {
+            let top = (cell.middle + cell.half).to_array();
+            let style = Lettering::new(LABEL, NAME);
+            label(view.place(top), 3.0, &cell.name, style, marks, placement);
+        }
         for bound in &scene.around.bounds {
             let (x, y) = view.place(bound.centre);
             let rim = (x, y - view.scale * bound.radius);

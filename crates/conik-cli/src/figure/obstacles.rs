@@ -55,6 +55,35 @@ pub struct Bound {
     pub radius: f64,
 }
 
+/// A box that is not left.
+#[derive(Clone, Debug)]
+pub struct Cell {
+    /// The task's name.
+    pub name: String,
+    /// Its middle [m].
+    pub middle: Vec3,
+    /// Half of its edges [m].
+    pub half: Vec3,
+}
+
+impl Cell {
+    /// The ends of its edges.
+    pub fn edges(&self) -> Vec<[Vector; 2]> {
+        let corner = |nth: usize| {
+            let side = |axis: usize, half: f64| if nth >> axis & 1 == 1 { half } else { -half };
+            let away = Vec3::new(
+                side(0, self.half.x),
+                side(1, self.half.y),
+                side(2, self.half.z),
+            );
+            (self.middle + away).to_array()
+        };
+        let along = |axis: usize| (0..8).filter(move |nth| nth >> axis & 1 == 0);
+        let edges = (0..3).flat_map(|axis| along(axis).map(move |nth| (nth, nth | 1 << axis)));
+        edges.map(|(from, to)| [corner(from), corner(to)]).collect()
+    }
+}
+
 /// All of these of a run.
 #[derive(Clone, Debug, Default)]
 pub struct Surroundings {
@@ -64,6 +93,8 @@ pub struct Surroundings {
     pub walls: Vec<Wall>,
     /// Spheres that are not left.
     pub bounds: Vec<Bound>,
+    /// Boxes that are not left.
+    pub cells: Vec<Cell>,
     /// Points that are looked at.
     pub sights: Vec<Sight>,
 }
@@ -77,6 +108,7 @@ impl Surroundings {
         for task in run.tasks().iter().filter(in_world) {
             found.add_task(run, task);
         }
+        found.join_walls();
         let collision = &run.summary().settings.scenario.collision;
         for obstacle in &collision.obstacles {
             let measures_it = |set: &str| {
@@ -96,6 +128,38 @@ impl Surroundings {
             found.add_shape(run, &obstacle.name, shape, &obstacle.motion, tint);
         }
         found
+    }
+
+    /// A `workspace` that is a box has become a set for each axis: together they are a box again.
+    fn join_walls(&mut self) {
+        let names: Vec<String> = self.walls.iter().map(|wall| wall.name.clone()).collect();
+        for name in names.iter().filter_map(|name| name.strip_suffix("/x")) {
+            let mut sides = Vec::new();
+            for (letter, axis) in ["x", "y", "z"].iter().zip(0..) {
+                let of_axis = self
+                    .walls
+                    .iter()
+                    .filter(|wall| wall.name == format!("{name}/{letter}"));
+                let mut levels: Vec<f64> =
+                    of_axis.map(|wall| wall.point.to_array()[axis]).collect();
+                levels.sort_by(f64::total_cmp);
+                if let [low, high] = levels[..] {
+                    sides.push((low, high));
+                }
+            }
+            let [x, y, z] = sides[..] else { continue };
+            let middle = [x, y, z].map(|(low, high)| f64::midpoint(low, high));
+            let half = [x, y, z].map(|(low, high)| 0.5 * (high - low));
+            self.walls.retain(|wall| {
+                let letter = wall.name.strip_prefix(name).unwrap_or_default();
+                !matches!(letter, "/x" | "/y" | "/z")
+            });
+            self.cells.push(Cell {
+                name: name.to_owned(),
+                middle: middle.into(),
+                half: half.into(),
+            });
+        }
     }
 
     fn add_task(&mut self, run: &Run, task: &TaskConfig) {

@@ -6,7 +6,7 @@ use conik_sim::scenario::{GoalConfig, TaskConfig, TaskKind};
 use super::axis::nice_step;
 use super::camera::{Vector, difference, dot};
 use super::curve::decimate_in_space;
-use super::obstacles::{Obstacle, Surroundings, at_end};
+use super::obstacles::{Cell, Obstacle, Surroundings, at_end};
 use super::run::Run;
 use super::solid::rim;
 
@@ -120,6 +120,13 @@ impl Scene {
             for point in rim(&shape, x, y).into_iter().chain(rim(&shape, y, z)) {
                 include(point, 0.0);
             }
+        }
+        for bound in &self.around.bounds {
+            include(bound.centre, bound.radius);
+        }
+        for edge in self.around.cells.iter().flat_map(Cell::edges) {
+            include(edge[0], 0.0);
+            include(edge[1], 0.0);
         }
         for sight in &self.around.sights {
             include(sight.from, 0.0);

@@ -1,7 +1,7 @@
 //! The scene painted from back to front: floor and walls, then solids from far to near, each after the parts
 //! of the path that it stands in front of.
 
-use conik::{Pose, Shape, Vec3};
+use conik::{Pose, Shape, Sphere, Vec3};
 
 use super::axis::range;
 use super::callouts;
@@ -10,6 +10,7 @@ use super::cone::Cone;
 use super::depth::{Placed, back_to_front};
 use super::floor;
 use super::ink::Stroke;
+use super::obstacles::Cell;
 use super::palette;
 use super::placement::{Area, Placement};
 use super::run::Run;
@@ -258,8 +259,11 @@ impl Stage<'_> {
             marks.line((x - 7.5, y), (x + 7.5, y), ink);
             marks.line((x, y - 7.5), (x, y + 7.5), ink);
         }
+        let stroke = Stroke::dashed(palette::LIMIT, 1.2, "6 4");
+        for [from, to] in self.scene.around.cells.iter().flat_map(Cell::edges) {
+            marks.line(view.place(from), view.place(to), stroke);
+        }
         for bound in &self.scene.around.bounds {
-            let stroke = Stroke::dashed(palette::LIMIT, 1.2, "6 4");
             let radius = view.scale * bound.radius;
             marks.circle(view.place(bound.centre), radius, "none", stroke);
         }
@@ -285,6 +289,11 @@ impl Stage<'_> {
         }
         for it in &scene.around.walls {
             points.extend(wall::piece(it, scene).into_iter().map(Vec3::to_array));
+        }
+        points.extend(scene.around.cells.iter().flat_map(Cell::edges).flatten());
+        for bound in &scene.around.bounds {
+            let sphere = Sphere::new(bound.centre, bound.radius).into();
+            points.extend(solid::rim(&sphere, right, up));
         }
         if scene.shows_base {
             points.push([0.0; 3]);

@@ -198,6 +198,7 @@
       const [x, y] = place(p);
       things += `<circle cx="${x}" cy="${y}" r="${r * scale}" fill="none" stroke="#57606a" stroke-dasharray="6 4"/>`;
     }
+    for (const edge of scene.cells) things += line(edge, "#57606a", 1.2, `stroke-dasharray="6 4"`);
     for (const [to, , from] of scene.targets) things += way(from, to);
     for (const [from, to] of scene.sights) {
       const [x, y] = place(to);

@@ -7,7 +7,7 @@ use std::fmt::Write;
 use conik::{Shape, Vec3};
 
 use crate::figure::camera::Vector;
-use crate::figure::obstacles::{Obstacle, Wall};
+use crate::figure::obstacles::{Cell, Obstacle, Wall};
 use crate::figure::scene::Scene;
 use crate::figure::{Run, path, shading, solid, wall};
 
@@ -43,6 +43,12 @@ pub fn scene(run: &Run, width: f64, height: f64) -> String {
         .iter()
         .map(|bound| format!("[{},{:.5}]", vector(&bound.centre), bound.radius))
         .collect();
+    let cells: Vec<String> = around
+        .cells
+        .iter()
+        .flat_map(Cell::edges)
+        .map(|[from, to]| format!("[{},{}]", vector(&from), vector(&to)))
+        .collect();
     let sights: Vec<String> = around
         .sights
         .iter()
@@ -62,7 +68,7 @@ pub fn scene(run: &Run, width: f64, height: f64) -> String {
         data,
         "<script type=\"application/json\" id=\"scene\">{{\"size\":[{width},{height}],\
          \"view\":[{azimuth_deg},{elevation_deg}],\"low\":{},\"high\":{},\"step\":{},\
-         \"base\":{},\"path\":[{}],\"solids\":[{}],\"walls\":[{}],\"bounds\":[{}],\"sights\":[{}],\
+         \"base\":{},\"path\":[{}],\"solids\":[{}],\"walls\":[{}],\"bounds\":[{}],\"cells\":[{}],\"sights\":[{}],\
          \"targets\":[{}]}}</script>",
         vector(&scene.low),
         vector(&scene.high),
@@ -72,6 +78,7 @@ pub fn scene(run: &Run, width: f64, height: f64) -> String {
         solids.join(","),
         walls.join(","),
         bounds.join(","),
+        cells.join(","),
         sights.join(","),
         targets.join(","),
     );

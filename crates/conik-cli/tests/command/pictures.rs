@@ -145,3 +145,23 @@ fn many_pairs_of_shapes_have_charts_only_if_they_came_to_their_limits() {
     );
     assert!(report.contains("13 pairs of shapes never came to their limits"));
 }
+
+#[test]
+fn workspaces_are_drawn_whole() {
+    let of = |bounds: &str| {
+        let scenario = format!(
+            "[robot]\nmodel = \"ur5e\"\nq0_deg = [0, -90, -90, -90, 90, 0]\n\n[control]\nrate_hz = 20\n\
+             duration_s = 2\n\n[[task]]\nname = \"cell\"\ntype = \"workspace\"\n{bounds}\n\n[[task]]\n\
+             name = \"position\"\ntype = \"position\"\ntarget_m = [-0.5, -0.3, 0.3]\ngain_per_s = 1\n"
+        );
+        let arm = pictures_are_right("workspace", &scenario);
+        assert!(arm.contains(">cell</text>"), "{bounds}");
+        arm.matches("stroke-dasharray=\"6 4\"").count()
+    };
+    assert_eq!(
+        of("min_m = [-1.5, -1.2, 0.05]\nmax_m = [0.5, 1.2, 1.5]"),
+        12,
+        "edges"
+    );
+    assert_eq!(of("center_m = [0, 0, 0.2]\nradius_m = 1.6"), 1, "a circle");
+}
