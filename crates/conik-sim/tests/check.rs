@@ -169,3 +169,21 @@ fn an_elbow_set_with_half_a_turn_inside_is_doubted() {
     }
     assert!(!is_doubted("min = -3.1\nmax = 3.1"));
 }
+
+#[test]
+fn self_collision_of_neighbours_alone_is_doubted() {
+    let own = |link: &str| {
+        format!(
+            "[[shape]]\nname = \"a\"\nlink = \"link_2\"\ntype = \"sphere\"\ncenter_m = [0, 0, 0]\nradius_m = 0.05\n\
+             [[shape]]\nname = \"b\"\nlink = \"{link}\"\ntype = \"sphere\"\ncenter_m = [0, 0, 0]\nradius_m = 0.05\n\
+             [self_collision]\ndistance_m = 0.01\n[[task]]\nname = \"ball\""
+        )
+    };
+    let task = "[[task]]\nname = \"ball\"";
+    assert_doubted(
+        task,
+        &own("link_3"),
+        &["`self_collision` keeps nothing apart"],
+    );
+    assert_eq!(doubts(task, &own("link_4")), [""; 0]);
+}

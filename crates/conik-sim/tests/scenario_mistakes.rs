@@ -500,3 +500,20 @@ fn the_tip_of_a_tool_with_an_offset_is_a_link() {
     Experiment::new(&scenario).expect("it can be run");
     Scenario::from_toml(&fitted("", "", seen_from_it)).expect_err("there is no tip");
 }
+
+#[test]
+fn names_that_no_table_has_room_for_are_refused() {
+    let text = |name: &str| {
+        format!(
+            "[robot]\nmodel = \"ur5e\"\nq0_deg = [0, -90, 90, 0, 0, 0]\n[[task]]\nname = \"{name}\"\n\
+             type = \"height\"\ndesired = 0.3\ngain_per_s = 1\n"
+        )
+    };
+    assert!(Scenario::from_toml(&text(&"n".repeat(200))).is_ok());
+    let error = Scenario::from_toml(&text(&"n".repeat(201))).expect_err("too long");
+    let error = error.to_string();
+    assert!(
+        error.contains("the name has 201 characters; take a shorter one, of at most 200"),
+        "{error}"
+    );
+}

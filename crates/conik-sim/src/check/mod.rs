@@ -13,8 +13,8 @@ use crate::scenario::{
     Border, Choice, Control, GoalConfig, ModeRule, Recursion, Scenario, TaskKind,
 };
 use obstacles::{
-    exclusive_obstacles_that_meet, goals_in_obstacles, obstacles_too_fast, targets,
-    unused_obstacles,
+    exclusive_obstacles_that_meet, goals_in_obstacles, idle_self_collision, obstacles_too_fast,
+    targets, unused_obstacles,
 };
 use singular::undamped_at_a_singularity;
 
@@ -50,6 +50,7 @@ pub fn find(scenario: &Scenario, experiment: &Experiment) -> Findings {
     goals_in_obstacles(scenario, &mut doubts);
     obstacles_too_fast(scenario, experiment, &kinematics, &mut doubts);
     unused_obstacles(scenario, &mut doubts);
+    idle_self_collision(scenario, experiment, &mut doubts);
     if scenario.control.mode_rule == ModeRule::Cone {
         exclusive_without_effect(&scenario.control, &mut doubts);
     } else {

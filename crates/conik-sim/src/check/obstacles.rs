@@ -149,6 +149,24 @@ pub(super) fn exclusive_obstacles_that_meet(scenario: &Scenario, doubts: &mut Ve
     }
 }
 
+/// Where all shapes are neighbours or excluded, nothing is kept apart.
+pub(super) fn idle_self_collision(
+    scenario: &Scenario,
+    experiment: &Experiment,
+    doubts: &mut Vec<String>,
+) {
+    let sets = scenario.collision.tasks(&experiment.robot);
+    let is_own =
+        |set: &TaskConfig| matches!(&set.kind, TaskKind::Shapes(pair) if pair.other_link.is_some());
+    if scenario.collision.self_collision.is_some() && !sets.iter().any(is_own) {
+        doubts.push(
+            "`self_collision` keeps nothing apart: no two of the shapes are on links with more than \
+             one joint between them"
+                .to_owned(),
+        );
+    }
+}
+
 /// An obstacle without a distance that no task measures does nothing.
 pub(super) fn unused_obstacles(scenario: &Scenario, doubts: &mut Vec<String>) {
     let named = |name: &String| {

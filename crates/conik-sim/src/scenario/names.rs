@@ -28,6 +28,9 @@ const JOINT_COLUMNS: &[(&str, &str)] = &[
 /// Characters of a task's name. The log joins names with `+`, and `,` parts its columns.
 pub(super) const PATTERN: &str = "^[A-Za-z0-9_./-]+$";
 
+/// No table or picture has room for longer names.
+const LONGEST: usize = 200;
+
 pub(super) fn is_name_character(c: char) -> bool {
     c.is_ascii_alphanumeric() || matches!(c, '_' | '.' | '/' | '-')
 }
@@ -67,6 +70,13 @@ pub(super) fn read(table: &Table, found: &mut Mistakes) -> Option<Placed<String>
             &*placed.path,
             what,
             format!("use letters, digits and `_ . / -`, for example {right:?}"),
+        );
+    } else if name.len() > LONGEST {
+        found.add(
+            placed.span.clone(),
+            &*placed.path,
+            format!("the name has {} characters", name.len()),
+            format!("take a shorter one, of at most {LONGEST}"),
         );
     } else if is_log_column(name) {
         found.add(
