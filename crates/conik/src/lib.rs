@@ -110,8 +110,8 @@ pub use monitor::{
 };
 pub use reason::Reason;
 pub use robot::{
-    Body, DhConvention, DhRow, Joint, JointKind, JointLimits, Mimic, PlacedJoint, Robot,
-    RobotBuilder, RobotError, UrArm,
+    Body, DhConvention, DhRow, Joint, JointKind, JointLimits, Link, Mimic, MovedBody, PlacedJoint,
+    Robot, RobotBuilder, RobotError, UrArm,
 };
 pub use settings::{Border, ModeRule, Recursion, Settings};
 pub use shape::{Capsule, Closest, Cuboid, Cylinder, HalfSpace, Shape, Sphere};

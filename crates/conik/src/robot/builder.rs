@@ -17,7 +17,8 @@ impl Body {
     /// What no joint moves: the floor, the base.
     pub const FIXED: Self = Self(0);
 
-    pub(crate) const fn index(self) -> usize {
+    /// Its number: 0 of what does not move, n of [`Robot::bodies`]`[n - 1]`.
+    pub const fn index(self) -> usize {
         self.0
     }
 }

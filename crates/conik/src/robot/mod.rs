@@ -66,27 +66,38 @@ pub struct Robot {
     tool: usize,
 }
 
-/// A body that a joint moves.
+/// A body that a joint moves. Its pose in the world, at a position p of the joint, is
+///
+/// ```text
+/// world_from_body = world_from_parent · placement · motion(p) · joint_from_body
+/// p = drive.multiplier · q[drive.joint] + drive.offset
+/// ```
+///
+/// where `motion(p)` turns about the z axis by p, or slides along it.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct MovedBody {
-    /// Number of the body that carries it, 0 for what does not move.
-    pub(crate) parent: usize,
-    /// The joint's frame in that body's.
-    placement: Pose,
-    pub(crate) kind: JointKind,
-    /// The frame of what it moves, in its own.
-    joint_from_body: Pose,
-    /// How its position follows from q.
-    pub(crate) drive: Mimic,
+pub struct MovedBody {
+    /// Number of the body that carries it: 0 for what does not move, n for [`Robot::bodies`]`[n - 1]`,
+    /// which stands before this one.
+    pub parent: usize,
+    /// The joint's frame in that body's, with the joint at 0.
+    pub placement: Pose,
+    /// How the joint moves it.
+    pub kind: JointKind,
+    /// The frame of the body in the joint's, moved.
+    pub joint_from_body: Pose,
+    /// How the joint's position follows from q: by itself, unless it follows another joint.
+    pub drive: Mimic,
 }
 
 /// A named frame on a body.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Link {
-    name: String,
-    pub(crate) body: Body,
-    /// The frame in that of the body.
-    pub(crate) placement: Pose,
+pub struct Link {
+    /// The link's name, unique in the robot.
+    pub name: String,
+    /// What it is fixed to.
+    pub body: Body,
+    /// Its frame in that of the body.
+    pub placement: Pose,
 }
 
 /// Why a robot could not be made.
@@ -276,15 +287,17 @@ impl Robot {
     }
 
     /// Number of the link that is the tool.
-    pub(crate) fn tool(&self) -> usize {
+    pub fn tool(&self) -> usize {
         self.tool
     }
 
-    pub(crate) fn bodies(&self) -> &[MovedBody] {
+    /// The bodies that joints move, each after the one that carries it.
+    pub fn bodies(&self) -> &[MovedBody] {
         &self.bodies
     }
 
-    pub(crate) fn links(&self) -> &[Link] {
+    /// The links in the order in which [`Frame::Link`] counts them.
+    pub fn links(&self) -> &[Link] {
         &self.links
     }
 }
