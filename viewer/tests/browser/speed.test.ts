@@ -1,0 +1,64 @@
+// How much script a frame takes with fifty obstacles. What was measured is printed; that it was is tested.
+
+import { writeFile } from "node:fs/promises";
+import { join } from "node:path";
+import type { Browser } from "playwright-core";
+import { afterAll, beforeAll, expect, test } from "vitest";
+import { open, visit } from "./browser";
+import { Folder, ran, Served } from "./conik";
+
+let folder: Folder, browser: Browser, served: Served;
+
+const OBSTACLES = 50;
+
+/** Fifty balls around the way of the tool. */
+function crowded(): string {
+  const balls = Array.from({ length: OBSTACLES }, (_, nth) => {
+    const [column, row] = [nth % 10, Math.floor(nth / 10)];
+    const point = [0.2 + 0.06 * row, -0.45 + 0.1 * column, -0.28];
+    return `[[task]]\nname = "ball_${nth}"\ntype = "distance"\npoint_m = [${point.join(", ")}]\nmin = 0.05\n`;
+  });
+  return `title = "Fifty obstacles"
+[robot]
+model = "ur5-paper"
+q0_deg = [-48, -158, -108, -90, -85, 0]
+[control]
+duration_s = 30
+${balls.join("")}
+[[task]]
+name = "position"
+type = "position"
+waypoints_m = [[0.486, -0.066, -0.250], [0.320, 0.370, -0.250]]
+acceptance_m = 0.02
+gain_per_s = 0.3
+`;
+}
+
+beforeAll(async () => {
+  folder = await Folder.make();
+  browser = await open();
+  const scenario = join(folder.path, "crowded.toml");
+  await writeFile(scenario, crowded());
+  served = await Served.of(await ran(folder, scenario));
+});
+
+afterAll(async () => {
+  served?.stop();
+  await browser?.close();
+  await folder?.remove();
+});
+
+test("script of a frame with fifty obstacles", async () => {
+  // Software draws a small picture more often; the script's work is the same.
+  const { page } = await visit(browser, served.url, { viewport: { width: 800, height: 600 } });
+  expect(await page.locator(".task").count()).toBe(OBSTACLES + 1);
+  await page.keyboard.press(" ");
+  await page.waitForTimeout(15_000);
+  await page.keyboard.press("?");
+  const said = (await page.locator(".timing").textContent()) ?? "";
+  console.log(said);
+  const [frames, median, p99] = [...said.matchAll(/[\d.]+/g)].map(Number).filter((_, nth) => nth !== 2);
+  expect(frames).toBeGreaterThan(5);
+  expect(median).toBeGreaterThan(0);
+  expect(p99).toBeGreaterThanOrEqual(median!);
+});
