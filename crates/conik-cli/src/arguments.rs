@@ -27,6 +27,8 @@ pub enum Command {
     Check(CheckArguments),
     /// Draw the figures of a run again from its log
     Plot(PlotArguments),
+    /// Replay a run, or two side by side, in a browser on this computer, until Ctrl-C
+    View(ViewArguments),
     /// Emulate a Universal Robots controller on its real ports, until Ctrl-C
     Emulate(EmulateArguments),
     /// Measure this computer and the link to a controller, before anything moves
@@ -151,6 +153,25 @@ pub struct PlotArguments {
     #[arg(value_hint = ValueHint::DirPath)]
     pub dir: PathBuf,
     /// Do not print the names of the files written
+    #[arg(long, short)]
+    pub quiet: bool,
+}
+
+/// `conik view`
+#[derive(Debug, Args)]
+pub struct ViewArguments {
+    /// A folder that `conik run` wrote; with a second one, the two are compared
+    #[arg(
+        required = true,
+        num_args = 1..=2,
+        value_name = "DIR",
+        value_hint = ValueHint::DirPath
+    )]
+    pub dirs: Vec<PathBuf>,
+    /// Port of 127.0.0.1 [default: any free one]
+    #[arg(long, value_name = "N", default_value_t = 0, hide_default_value = true)]
+    pub port: u16,
+    /// Print the address of the page and nothing else
     #[arg(long, short)]
     pub quiet: bool,
 }

@@ -1,3 +1,4 @@
-//! What the command `conik` shows of a run: its figures and its report.
+//! What the command `conik` shows of a run: its figures, its report and its page.
 pub mod figure;
 pub mod report;
+pub mod view;

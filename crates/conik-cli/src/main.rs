@@ -21,6 +21,7 @@ fn main() -> ExitCode {
         Command::Run(arguments) => commands::run::run(&arguments),
         Command::Check(arguments) => commands::check::check(&arguments),
         Command::Plot(arguments) => commands::plot::plot(&arguments),
+        Command::View(arguments) => commands::view::view(&arguments),
         Command::Emulate(arguments) => commands::emulate::emulate(&arguments),
         Command::Preflight(arguments) => commands::preflight::preflight(&arguments),
         Command::Recover(arguments) => commands::recover::recover(&arguments),

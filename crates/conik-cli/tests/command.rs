@@ -19,4 +19,5 @@ mod command {
     mod strangers;
     mod trouble;
     mod urdf;
+    mod view;
 }

@@ -11,6 +11,7 @@ pub mod robots;
 pub mod run;
 pub mod schema;
 mod ur_robot;
+pub mod view;
 
 use std::io::{self, Write};
 use std::process::ExitCode;

@@ -72,16 +72,21 @@ pub struct Span {
 impl Run {
     /// Reads `log.csv` and `summary.json` in the folder `dir`.
     pub fn load(dir: &Path) -> Result<Self, RunError> {
+        // Accelerations and measurements appear in no figure.
+        Self::load_columns(dir, |name| {
+            !name.ends_with("_rad_s2") && !name.ends_with("_measured_rad")
+        })
+    }
+
+    /// As [`Run::load`], with those columns of the log that `keep` names.
+    pub fn load_columns(dir: &Path, keep: impl Fn(&str) -> bool) -> Result<Self, RunError> {
         let path = dir.join("summary.json");
         let summary = match File::open(&path) {
             Ok(file) => read_summary(file, LARGEST_SUMMARY, path)?,
             Err(source) => return Err(RunError::Read { path, source }),
         };
         let path = dir.join("log.csv");
-        // Accelerations and measurements appear in no figure.
-        let log = Log::load_columns(&path, |name| {
-            !name.ends_with("_rad_s2") && !name.ends_with("_measured_rad")
-        })?;
+        let log = Log::load_columns(&path, keep)?;
         if log.is_empty() {
             return Err(RunError::NoRows { path });
         }

@@ -69,6 +69,11 @@ impl Log {
         self.column("t_s").unwrap_or_default()
     }
 
+    /// Names of the columns of numbers that were kept, in the order of the file.
+    pub fn names(&self) -> &[String] {
+        &self.names
+    }
+
     /// The column of that name, if there is one and it was kept.
     pub fn column(&self, name: &str) -> Option<&[f64]> {
         let at = self.names.iter().position(|other| other == name)?;
