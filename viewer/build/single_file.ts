@@ -1,6 +1,10 @@
 // Puts style and script into the page, and into its head what it may load: itself and its data.
 import { createHash } from "node:crypto";
+import { readFileSync } from "node:fs";
 import type { Plugin } from "vite";
+
+/** What the page has in it of others, whose licence goes with it. */
+const THREE_LICENCE = new URL("../node_modules/three/LICENSE", import.meta.url);
 
 /** Where the policy goes in index.html. */
 const POLICY = "<!-- policy -->";
@@ -30,9 +34,14 @@ export function singleFile(): Plugin {
         delete bundle[name];
       }
       html = replaced(html, POLICY, () => policy(script));
-      page.source = replaced(html, "</body>", () => `<script type="module">${script}</script>\n</body>`);
+      const last = `${notice()}\n<script type="module">${script}</script>\n</body>`;
+      page.source = replaced(html, "</body>", () => last);
     },
   };
+}
+
+function notice(): string {
+  return `<!-- The script has three.js in it:\n\n${readFileSync(THREE_LICENCE, "utf8").trim()}\n-->`;
 }
 
 function scriptTag(name: string): RegExp {
