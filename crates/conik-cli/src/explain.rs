@@ -4,10 +4,10 @@ use std::collections::BTreeMap;
 
 use conik::{Interval, JointKind, Kinematics, Reason, Vec3};
 use conik_cli::report::units::{limit, quantity};
+use conik_sim::columns::Columns;
 use conik_sim::experiment::Experiment;
 use conik_sim::mover::Mover;
 use conik_sim::record::Record;
-use conik_sim::run::Columns;
 use conik_sim::scenario::TaskKind;
 
 use crate::failure::Failure;
@@ -75,7 +75,7 @@ fn explain(asked_s: f64, record: &Record, experiment: &Experiment) -> String {
         text += &wrapped("  ", &way);
     }
     text += &tasks(record, experiment);
-    for mover in &experiment.movers {
+    for mover in experiment.movers.iter().filter(|it| !it.motion.is_rest()) {
         text += &wrapped("  ", &moved(mover, record.t_s, experiment));
     }
     let stack = experiment.controller.stack();

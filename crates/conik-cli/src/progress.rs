@@ -3,9 +3,9 @@
 use std::io::{self, Write};
 use std::time::{Duration, Instant};
 
+use conik_sim::columns::Columns;
 use conik_sim::experiment::Experiment;
 use conik_sim::record::Record;
-use conik_sim::run::Columns;
 use conik_sim::summary::ModeChange;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 

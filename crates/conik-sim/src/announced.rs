@@ -3,7 +3,7 @@
 //! Where a point moves, a set may be left because no velocity within the limits keeps it. Border `land`
 //! then says in that very tick that the next sample will be outside, and by how much at most.
 
-use conik::{Occurrence, Stack, Step};
+use conik::{Occurrence, Stack, Step, TaskId};
 
 /// What is less is the rounding of a point that moves [task's unit].
 const ROUNDING: f64 = 1e-12;
@@ -39,6 +39,20 @@ impl Announcements {
             *entered |= violation <= 0.0;
         }
         self.announced = step.landed.outside.map_or(0.0, |outside| outside.by);
+    }
+
+    /// Goes on where `before` was, in the same tick of the same run: `places` has for each task its place in
+    /// the stack of then, or none of a task that is not what it was.
+    pub(crate) fn take_over(&mut self, before: &Self, places: &[Option<TaskId>], stack: &Stack) {
+        for (entered, place) in self.entered.iter_mut().zip(places) {
+            *entered = place.is_some_and(|place| before.entered[place.index()]);
+        }
+        self.announced = before.announced;
+        self.unannounced = before.unannounced;
+        self.unannounced.task = before.unannounced.task.and_then(|task| {
+            let mut ids = stack.iter().map(|(id, _)| id);
+            ids.find(|id| places[id.index()] == Some(task))
+        });
     }
 
     /// What was seen so far.

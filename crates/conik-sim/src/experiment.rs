@@ -1,7 +1,7 @@
 //! From a scenario to the objects that run it: robot, controller, waypoints.
 
 use conik::{
-    Controller, ControllerError, JointVec, ModeOrder, Robot, Settings, Stack, StackError,
+    Controller, ControllerError, JointVec, ModeOrder, Robot, Settings, Stack, StackError, TaskId,
     TooManyJoints,
 };
 
@@ -11,7 +11,7 @@ use crate::mover::Mover;
 use crate::named_shapes::NoPair;
 use crate::scenario::{
     Border, Control, Damping, DampingRule, DescriptionError, GoalConfig, ModeRule, Recursion,
-    Scenario,
+    Scenario, TaskConfig,
 };
 use crate::visits::Visits;
 
@@ -68,6 +68,18 @@ pub enum ExperimentError {
 impl Experiment {
     /// Makes a scenario ready to run.
     pub fn new(scenario: &Scenario) -> Result<Self, ExperimentError> {
+        Self::with_movers(scenario, Mover::of)
+    }
+
+    /// The same, of which anything may be moved while it runs.
+    pub(crate) fn changeable(scenario: &Scenario) -> Result<Self, ExperimentError> {
+        Self::with_movers(scenario, |task, config| Some(Mover::of_any(task, config)))
+    }
+
+    fn with_movers(
+        scenario: &Scenario,
+        mover: impl Fn(TaskId, &TaskConfig) -> Option<Mover>,
+    ) -> Result<Self, ExperimentError> {
         let robot = limited_robot(&scenario.robot)?;
         let mut stack = Stack::new(&robot);
         let mut waypoints = None;
@@ -79,7 +91,7 @@ impl Experiment {
         }
         for task in &tasks {
             let id = add_task(&mut stack, &robot, task)?;
-            movers.extend(Mover::of(id, task));
+            movers.extend(mover(id, task));
             stack.setpoints().set_damping(id, damping(task.damping))?;
             if let GoalConfig::Set {
                 recovery_per_s: Some(speed),
@@ -132,7 +144,7 @@ impl Experiment {
     /// If a desired value has moved beyond all numbers, which none of a scenario that was checked does.
     pub fn move_world(&mut self, t_s: f64) -> Result<(), StackError> {
         let period_s = self.period_s();
-        let mut movers = self.movers.iter();
+        let mut movers = self.movers.iter_mut();
         movers.try_for_each(|mover| mover.tell(&mut self.controller.setpoints(), t_s, period_s))
     }
 }

@@ -9,12 +9,15 @@
 
 pub mod announced;
 pub mod arm;
+mod between;
 pub mod check;
 pub mod collision_pairs;
+pub mod columns;
 pub mod cycle_times;
 pub mod experiment;
 pub mod histogram;
 pub mod joint_limits;
+pub mod live;
 pub mod log;
 mod measured;
 pub mod monitors;

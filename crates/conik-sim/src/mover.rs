@@ -1,10 +1,11 @@
-//! What moves in a run besides the arm: points, targets, directions, desired values, obstacles.
+//! What moves in a run besides the arm: points, targets, directions, desired values, bounds, obstacles.
 
 use conik::{
-    Distance, FieldOfView, FramePose, LookAt, Orientation, OrientationAngle, PointingAngle, Pose,
-    Setpoints, ShapeDistance, StackError, Task, TaskId, Vec3,
+    BoundRates, Distance, FieldOfView, FramePose, Interval, LookAt, Orientation, OrientationAngle,
+    PointingAngle, Pose, Setpoints, ShapeDistance, StackError, Task, TaskId, Vec3,
 };
 
+use crate::live::{Away, GlideSpeed};
 use crate::scenario::{GoalConfig, Motion, TaskConfig, TaskKind};
 
 /// A task of which something moves, and how.
@@ -16,35 +17,68 @@ pub struct Mover {
     pub kind: TaskKind,
     /// Its desired value at t = 0, if it has one.
     desired: Option<Vec<f64>>,
+    /// Its allowed values, if it is a set.
+    interval: Option<Interval>,
     /// How it moves.
     pub motion: Motion,
+    /// How far it is from there, after a change of the scenario.
+    away: Away,
+    /// How fast it makes that up; `None`: as before the change, or at the usual speed.
+    pub(crate) glide_speed: Option<GlideSpeed>,
+    /// Whether the task knows where it is, and that it rests there.
+    is_settled: bool,
+    /// Whether the last tick was told that bounds move.
+    bounds_move: bool,
 }
 
 impl Mover {
     /// What moves of a task, if anything does.
     pub fn of(task: TaskId, config: &TaskConfig) -> Option<Self> {
-        let desired = match &config.goal {
-            GoalConfig::Desired { desired, .. } => Some(desired.clone()),
-            _ => None,
-        };
-        (!config.motion.is_rest()).then(|| Self {
+        (!config.motion.is_rest()).then(|| Self::of_any(task, config))
+    }
+
+    /// The same of a task of which nothing need move.
+    pub(crate) fn of_any(task: TaskId, config: &TaskConfig) -> Self {
+        let (mut desired, mut interval) = (None, None);
+        match &config.goal {
+            GoalConfig::Desired { desired: value, .. } => desired = Some(value.clone()),
+            GoalConfig::Set { min, max, .. } => {
+                interval = Some(Interval {
+                    min: min.unwrap_or(f64::NEG_INFINITY),
+                    max: max.unwrap_or(f64::INFINITY),
+                });
+            }
+            GoalConfig::Waypoints { .. } => {}
+        }
+        Self {
             task,
             kind: config.kind.clone(),
             desired,
+            interval,
             motion: config.motion,
-        })
+            away: Away::default(),
+            glide_speed: None,
+            is_settled: config.motion.is_rest(),
+            bounds_move: false,
+        }
     }
 
     /// Where its point or target is at `t_s` [s], if that moves [m].
     pub fn point_at(&self, t_s: f64) -> Option<[f64; 3]> {
         self.motion.velocity_m_per_s?;
-        let start = match self.kind {
-            TaskKind::Distance { point_m } | TaskKind::LookAt { point_m } => point_m,
-            TaskKind::Pose { target_m, .. } => target_m,
-            TaskKind::Shapes(ref pair) => pair.other.point(),
-            _ => self.desired.as_deref()?.try_into().ok()?,
-        };
+        let start = self.start()?;
         Some(self.motion.point_at(start, t_s))
+    }
+
+    /// Where its point or target is at t = 0, if it has one [m].
+    fn start(&self) -> Option<[f64; 3]> {
+        match self.kind {
+            TaskKind::Distance { point_m } | TaskKind::LookAt { point_m } => Some(point_m),
+            TaskKind::Pose { target_m, .. } => Some(target_m),
+            TaskKind::Shapes(ref pair) => Some(pair.other.point()),
+            TaskKind::Position => self.desired.as_deref()?.try_into().ok(),
+            _ => None,
+        }
     }
 
     /// Its desired value at `t_s` [s], if that moves [task's unit].
@@ -54,77 +88,279 @@ impl Mover {
         Some(self.motion.value_at(*start, t_s))
     }
 
-    /// Tells the task where everything is at `t_s` [s] and where it will be a period later.
+    /// How far it still is from where the scenario has it.
+    pub fn away(&self) -> &Away {
+        &self.away
+    }
+
+    /// Takes over where `old`, the same task before a change of the scenario, is at `t_s` [s], to glide from
+    /// there to where the scenario has it now. `false` if no gliding leads from one to the other, so that
+    /// the task jumps.
+    pub(crate) fn glide_from(&mut self, old: &Self, t_s: f64) -> bool {
+        self.glide_speed = self.glide_speed.or(old.glide_speed);
+        // Only what is kept needs time to get away from.
+        let (Some(interval), Some(before)) = (self.interval, old.interval) else {
+            return self.interval.is_none() && old.interval.is_none();
+        };
+        let (Some(point_m), Some(turn_rad)) = (self.point_from(old, t_s), self.turn_from(old, t_s))
+        else {
+            return false;
+        };
+        let bound = |before: f64, away: f64, now: f64| match (before.is_finite(), now.is_finite()) {
+            (true, true) => Some(before + away - now),
+            (false, false) => Some(0.0),
+            _ => None,
+        };
+        let (Some(min), Some(max)) = (
+            bound(before.min, old.away.min, interval.min),
+            bound(before.max, old.away.max, interval.max),
+        ) else {
+            return false;
+        };
+        self.away = Away {
+            point_m,
+            turn_rad,
+            min,
+            max,
+        };
+        self.is_settled &= self.away.is_none();
+        true
+    }
+
+    /// From its own point at `t_s` [s] to where that of `old` is; `None` if more than that differs.
+    fn point_from(&self, old: &Self, t_s: f64) -> Option<Vec3> {
+        let is_alike = match (&self.kind, &old.kind) {
+            (TaskKind::Distance { .. }, TaskKind::Distance { .. })
+            | (TaskKind::LookAt { .. }, TaskKind::LookAt { .. }) => true,
+            (TaskKind::Shapes(now), TaskKind::Shapes(before)) => {
+                now.link == before.link
+                    && now.shape == before.shape
+                    && now.other_link == before.other_link
+                    && before.other.moved_to(now.other.point()).is_near(&now.other)
+            }
+            _ => return Some(Vec3::default()),
+        };
+        let (start, from) = (self.start()?, old.start()?);
+        let now = Vec3::from(self.motion.point_at(start, t_s));
+        let before = Vec3::from(old.motion.point_at(from, t_s)) + old.away.point_m;
+        is_alike.then(|| before - now)
+    }
+
+    /// The rotation vector from its own direction or orientation at `t_s` [s] to that of `old`; `None` if
+    /// more than that differs.
+    fn turn_from(&self, old: &Self, t_s: f64) -> Option<Vec3> {
+        match (&self.kind, &old.kind) {
+            (
+                TaskKind::FieldOfView { direction },
+                TaskKind::FieldOfView {
+                    direction: before, ..
+                },
+            ) => Some(between(
+                self.direction_at(direction, t_s),
+                old.direction_at(before, t_s),
+            )),
+            (
+                TaskKind::PointingAngle { axis, direction },
+                TaskKind::PointingAngle {
+                    axis: old_axis,
+                    direction: before,
+                },
+            ) => (axis == old_axis).then(|| {
+                between(
+                    self.direction_at(direction, t_s),
+                    old.direction_at(before, t_s),
+                )
+            }),
+            (
+                TaskKind::OrientationAngle {
+                    desired_quaternion_wxyz: desired,
+                },
+                TaskKind::OrientationAngle {
+                    desired_quaternion_wxyz: before,
+                },
+            ) => {
+                let now = self.orientation_at(desired, t_s);
+                let before = old.orientation_at(before, t_s);
+                Some((before * now.inverse()).rotation_vector())
+            }
+            (TaskKind::Distance { .. }, TaskKind::Distance { .. })
+            | (TaskKind::LookAt { .. }, TaskKind::LookAt { .. })
+            | (TaskKind::Shapes(_), TaskKind::Shapes(_)) => Some(Vec3::default()),
+            (now, before) => (now == before).then(Vec3::default),
+        }
+    }
+
+    fn direction_at(&self, direction: &[f64; 3], t_s: f64) -> Vec3 {
+        let turned = Vec3::from(self.motion.turned_at(t_s));
+        let there = Vec3::from(*direction).turned_by(turned);
+        there.turned_by(self.away.turn_rad)
+    }
+
+    fn orientation_at(&self, start_wxyz: &[f64; 4], t_s: f64) -> Pose {
+        let turned = Vec3::from(self.motion.turned_at(t_s));
+        Pose::turned(self.away.turn_rad) * turned_pose(turned, *start_wxyz)
+    }
+
+    /// Tells the task where everything is at `t_s` [s] and where it will be a period later. Called before
+    /// every tick.
     pub(crate) fn tell(
-        &self,
+        &mut self,
         setpoints: &mut Setpoints<'_>,
         t_s: f64,
         period_s: f64,
     ) -> Result<(), StackError> {
-        self.tell_parameters(setpoints, t_s, period_s);
-        let now = self.motion.during(t_s, period_s);
-        match (&self.kind, self.desired.as_deref(), now.desired_per_s) {
-            (TaskKind::Position, Some(&[x, y, z]), _) => {
+        if self.is_settled {
+            return Ok(());
+        }
+        let now = During {
+            motion: self.motion.during(t_s, period_s),
+            away: self.away,
+            then: self
+                .away
+                .after(period_s, &self.glide_speed.unwrap_or_default()),
+            period_s,
+        };
+        self.tell_parameters(setpoints, t_s, &now);
+        self.tell_bounds(setpoints, &now)?;
+        // What came to rest is told so once.
+        self.is_settled = self.motion.is_rest() && self.away.is_none();
+        self.away = now.then;
+        match (&self.kind, self.desired.as_deref()) {
+            (TaskKind::Position, Some(&[x, y, z])) if self.motion.velocity_m_per_s.is_some() => {
                 let target = self.motion.point_at([x, y, z], t_s);
-                let velocity = now.velocity_m_per_s.unwrap_or_default();
+                let velocity = now.motion.velocity_m_per_s.unwrap_or_default();
                 setpoints.set_desired_moving(self.task, &target, &velocity)
             }
-            (_, Some(&[start]), Some(rate)) => {
+            (_, Some(&[start])) if self.motion.desired_per_s.is_some() => {
                 let desired = self.motion.value_at(start, t_s);
+                let rate = now.motion.desired_per_s.unwrap_or_default();
                 setpoints.set_desired_moving(self.task, &[desired], &[rate])
             }
             _ => Ok(()),
         }
     }
 
+    fn tell_bounds(
+        &mut self,
+        setpoints: &mut Setpoints<'_>,
+        now: &During,
+    ) -> Result<(), StackError> {
+        let moves = now.away.min != 0.0 || now.away.max != 0.0;
+        let moved = std::mem::replace(&mut self.bounds_move, moves);
+        let Some(interval) = self.interval.filter(|_| moves || moved) else {
+            return Ok(());
+        };
+        let interval = Interval {
+            min: interval.min + now.away.min,
+            max: interval.max + now.away.max,
+        };
+        let rates = BoundRates {
+            min: (now.then.min - now.away.min) / now.period_s,
+            max: (now.then.max - now.away.max) / now.period_s,
+        };
+        setpoints.set_interval_moving(self.task, interval, rates)
+    }
+
     /// The part that is no desired value but the task's own parameter.
-    fn tell_parameters(&self, setpoints: &mut Setpoints<'_>, t_s: f64, period_s: f64) {
-        let (id, motion, now) = (self.task, self.motion, self.motion.during(t_s, period_s));
-        let velocity = now.velocity_m_per_s.unwrap_or_default();
-        let turning = now.angular_velocity_rad_per_s.unwrap_or_default();
+    fn tell_parameters(&self, setpoints: &mut Setpoints<'_>, t_s: f64, now: &During) {
+        let (id, motion) = (self.task, self.motion);
+        let point = |start| Vec3::from(motion.point_at(start, t_s)) + now.away.point_m;
+        let velocity = now.velocity();
         let turned = Vec3::from(motion.turned_at(t_s));
+        let direction = |start: [f64; 3]| {
+            let there = Vec3::from(start).turned_by(turned);
+            there.turned_by(now.away.turn_rad)
+        };
+        let pose = |start| Pose::turned(now.away.turn_rad) * turned_pose(turned, start);
+        let turning = now.turning();
         match self.kind {
             TaskKind::Distance { point_m } => change(setpoints, id, |it: &mut Distance| {
-                it.set_point_moving(motion.point_at(point_m, t_s), velocity);
+                it.set_point_moving(point(point_m), velocity);
             }),
             TaskKind::LookAt { point_m } => change(setpoints, id, |it: &mut LookAt| {
-                it.set_point_moving(motion.point_at(point_m, t_s), velocity);
+                it.set_point_moving(point(point_m), velocity);
             }),
             TaskKind::Shapes(_) => change(setpoints, id, |it: &mut ShapeDistance| {
-                it.set_shift_moving(motion.point_at([0.0; 3], t_s), velocity);
+                it.set_shift_moving(point([0.0; 3]), velocity);
             }),
-            TaskKind::FieldOfView { direction } => change(setpoints, id, |it: &mut FieldOfView| {
-                it.set_direction_turning(Vec3::from(direction).turned_by(turned), turning);
-            }),
-            TaskKind::PointingAngle { direction, .. } => {
-                change(setpoints, id, |it: &mut PointingAngle| {
-                    it.set_direction_turning(Vec3::from(direction).turned_by(turned), turning);
+            TaskKind::FieldOfView { direction: start } => {
+                change(setpoints, id, |it: &mut FieldOfView| {
+                    it.set_direction_turning(direction(start), turning);
                 });
             }
+            TaskKind::PointingAngle {
+                direction: start, ..
+            } => change(setpoints, id, |it: &mut PointingAngle| {
+                it.set_direction_turning(direction(start), turning);
+            }),
             TaskKind::Orientation {
                 desired_quaternion_wxyz: start,
             } => change(setpoints, id, |it: &mut Orientation| {
-                it.set_desired_turning(turned_pose(turned, start), turning);
+                it.set_desired_turning(pose(start), turning);
             }),
             TaskKind::OrientationAngle {
                 desired_quaternion_wxyz: start,
             } => change(setpoints, id, |it: &mut OrientationAngle| {
                 let orientation = it.orientation_mut();
-                orientation.set_desired_turning(turned_pose(turned, start), turning);
+                orientation.set_desired_turning(pose(start), turning);
             }),
             TaskKind::Pose {
                 target_m,
                 desired_quaternion_wxyz: start,
             } => change(setpoints, id, |it: &mut FramePose| {
                 let desired = Pose {
-                    origin: motion.point_at(target_m, t_s).into(),
-                    ..turned_pose(turned, start)
+                    origin: point(target_m),
+                    ..pose(start)
                 };
                 it.set_desired_moving(desired, velocity, turning);
             }),
             _ => {}
         }
     }
+}
+
+/// What moves in one period, and how.
+struct During {
+    motion: Motion,
+    /// At its beginning and at its end.
+    away: Away,
+    then: Away,
+    period_s: f64,
+}
+
+impl During {
+    /// Velocity of a point [m/s].
+    fn velocity(&self) -> Vec3 {
+        let own = Vec3::from(self.motion.velocity_m_per_s.unwrap_or_default());
+        own + (self.then.point_m - self.away.point_m) * (1.0 / self.period_s)
+    }
+
+    /// Angular velocity of a direction or an orientation [rad/s].
+    fn turning(&self) -> Vec3 {
+        let own = self.motion.angular_velocity_rad_per_s.unwrap_or_default();
+        // What is away shrinks along itself, so that its rate is an angular velocity.
+        let gliding = (self.then.turn_rad - self.away.turn_rad) * (1.0 / self.period_s);
+        Vec3::from(own).turned_by(self.away.turn_rad) + gliding
+    }
+}
+
+/// The shortest rotation vector that turns one direction into another [rad].
+fn between(from: Vec3, to: Vec3) -> Vec3 {
+    let axis = from.cross(to);
+    let (sine, cosine) = (axis.norm(), from.dot(to));
+    if sine > 1e-12 {
+        return axis * (sine.atan2(cosine) / sine);
+    }
+    if cosine > 0.0 {
+        return Vec3::default();
+    }
+    // Straight back: about any axis across.
+    let across = if from.x.abs() < 0.5 {
+        Vec3::new(1.0, 0.0, 0.0)
+    } else {
+        Vec3::new(0.0, 1.0, 0.0)
+    };
+    from.cross(across).normalized() * std::f64::consts::PI
 }
 
 /// Changes a task that is of this type.

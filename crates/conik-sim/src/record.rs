@@ -2,6 +2,8 @@
 
 use conik::{ActiveSet, JointVec, Landed, Reason, Vec3};
 
+use crate::live::Gliding;
+
 /// One tick: the state at t = k / rate *before* the step, and what was decided there.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Record {
@@ -45,4 +47,8 @@ pub struct Record {
     pub step_ns: u64,
     /// Cycles of the arm's clock that went by unanswered before this one.
     pub missed_cycles: u64,
+    /// The number of the change of the scenario that was in force; 0 if nobody changed any.
+    pub revision: u64,
+    /// What was on its way to where a change has put it.
+    pub gliding: Vec<Gliding>,
 }

@@ -1,14 +1,14 @@
 //! The run loop: wait for the arm's cycle, decide, send, record.
 
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::AtomicBool;
 use std::time::Instant;
 
-use conik::{ActiveSet, Frame, JointVec, Monitor, Occurrence, Stack, Step, TaskId};
+use conik::{ActiveSet, Frame, JointVec, Monitor, Occurrence, StackError, Step};
 
-use crate::announced::Announcements;
 use crate::arm::{Arm, ArmError, Feedback, Reference};
 use crate::cycle_times::CycleTimes;
 use crate::experiment::Experiment;
+use crate::live::{Helm, Pace, Stretch, Turn};
 use crate::record::Record;
 use crate::summary::Outcome;
 
@@ -50,17 +50,24 @@ pub struct Ended {
 /// the paper). The reference sent at tick k is q at t = k / rate, so that the first one is the pose
 /// in which the arm already is.
 pub fn run(
-    mut experiment: Experiment,
+    experiment: Experiment,
     arm: &mut dyn Arm,
     sink: &mut dyn Sink,
     stop: &AtomicBool,
 ) -> Ended {
-    let stack = experiment.controller.stack();
-    let mut watch = Watch {
-        monitor: Monitor::new(stack),
-        announcements: Announcements::new(stack),
-    };
-    let ended = drive(&mut experiment, &mut watch, arm, sink, stop);
+    run_steered(Stretch::first(experiment), arm, sink, stop, None)
+}
+
+/// The same, paused and changed by whoever is at `helm`. What is left has the numbers of the tasks in the last
+/// stretch of the run, records those in the first one.
+pub fn run_steered(
+    mut stretch: Stretch,
+    arm: &mut dyn Arm,
+    sink: &mut dyn Sink,
+    stop: &AtomicBool,
+    helm: Option<&Helm>,
+) -> Ended {
+    let ended = drive(&mut stretch, arm, sink, stop, helm);
     let stopped = arm.stop();
     let outcome = match ended.and_then(|completed| stopped.map(|()| completed)) {
         Ok(true) => Outcome::Completed,
@@ -72,66 +79,113 @@ pub fn run(
     };
     Ended {
         outcome,
-        monitor: watch.monitor,
-        unannounced: watch.announcements.unannounced(),
+        monitor: stretch.monitor,
+        unannounced: stretch.announcements.unannounced(),
         cycles: arm.cycle_times().cloned(),
-        experiment,
-    }
-}
-
-/// Who looks on.
-struct Watch {
-    monitor: Monitor,
-    announcements: Announcements,
-}
-
-impl Watch {
-    fn observe(&mut self, stack: &Stack, step: &Step, t_s: f64) {
-        self.monitor.observe(stack, step, t_s);
-        self.announcements.observe(stack, step, t_s);
+        experiment: stretch.experiment,
     }
 }
 
 /// `true` if the run went to its end, `false` if it was interrupted.
 fn drive(
-    experiment: &mut Experiment,
-    watch: &mut Watch,
+    stretch: &mut Stretch,
     arm: &mut dyn Arm,
     sink: &mut dyn Sink,
     stop: &AtomicBool,
+    helm: Option<&Helm>,
 ) -> Result<bool, ArmError> {
-    let rate_hz = experiment.controller.settings().rate_hz;
+    let rate_hz = stretch.experiment.controller.settings().rate_hz;
     let present = arm.start(rate_hz)?;
-    let mut q = begin_at(&present, &experiment.q0, experiment.from_here)?;
-    let columns = Columns::new(experiment.controller.stack());
-    experiment.controller.measure_on_demand();
+    let experiment = &stretch.experiment;
+    let mut way = Way::at(begin_at(&present, &experiment.q0, experiment.from_here)?);
+    let mut pace = Pace::new(helm, arm.is_real_time(), experiment.period_s());
     let mut last_active: Option<ActiveSet> = None;
-    for tick in 0..=experiment.last_tick {
-        if stop.load(Ordering::Relaxed) {
+    let (mut tick, mut missed_cycles) = (0, 0);
+    loop {
+        if !pace.wait(stop) {
             return Ok(false);
         }
         let feedback = arm.next_cycle()?;
+        missed_cycles += feedback.missed_cycles;
+        if let Turn::Between { share, speed } = pace.turn() {
+            arm.send(&way.reference(share, speed))?;
+            continue;
+        }
         let t_s = tick as f64 / rate_hz;
-        experiment
-            .move_world(t_s)
-            .map_err(|error| ArmError::new("bad-target", error.to_string()))?;
-        let mut record = decide(experiment, &columns, &q, &feedback)?;
-        let step = experiment.controller.last_step();
+        let bad_target = |error: StackError| ArmError::new("bad-target", error.to_string());
+        if let Some(helm) = helm {
+            helm.take_up(stretch, |next, present| next.take_over(present, t_s))
+                .map_err(bad_target)?;
+        }
+        let gliding = stretch.gliding();
+        stretch.experiment.move_world(t_s).map_err(bad_target)?;
+        let q = way.to;
+        let mut record = decide(stretch, &q, &feedback)?;
+        let step = stretch.experiment.controller.last_step();
         arm.send(&Reference {
             q,
             qd: step.qd,
             qdd: step.qdd,
         })?;
-        watch.observe(experiment.controller.stack(), step, t_s);
-        q = step.q_ref;
+        way = Way {
+            from: q,
+            to: step.q_ref,
+            qd: step.qd,
+        };
+        stretch.observe(t_s);
 
         record.tick = tick;
         record.t_s = t_s;
+        record.missed_cycles = std::mem::take(&mut missed_cycles);
         record.mode_changed = last_active != Some(record.active);
         last_active = Some(record.active);
+        record.revision = helm.map_or(0, Helm::revision);
+        record.gliding = gliding;
         sink.take(record)?;
+        if tick >= stretch.experiment.last_tick {
+            return Ok(true);
+        }
+        tick += 1;
     }
-    Ok(true)
+}
+
+/// The way of one period, from a sample to the next [rad].
+#[derive(Clone, Copy, Debug)]
+struct Way {
+    from: JointVec,
+    to: JointVec,
+    qd: JointVec,
+}
+
+impl Way {
+    /// Standing still.
+    fn at(q: JointVec) -> Self {
+        Self {
+            from: q,
+            to: q,
+            qd: JointVec::zeros(q.len()),
+        }
+    }
+
+    /// Where to be after a `share` of it, with time going at `speed`.
+    fn reference(&self, share: f64, speed: f64) -> Reference {
+        let mut reference = Reference {
+            q: self.from,
+            qd: self.qd,
+            qdd: JointVec::zeros(self.qd.len()),
+        };
+        for (q, (from, to)) in reference
+            .q
+            .iter_mut()
+            .zip(self.from.iter().zip(self.to.iter()))
+        {
+            *q = from + share * (to - from);
+        }
+        for qd in reference.qd.iter_mut() {
+            *qd *= speed;
+        }
+        reference
+    }
 }
 
 /// Where the run begins: in the arm's present pose, if that is the scenario's start or the run may begin
@@ -165,12 +219,8 @@ fn begin_at(present: &JointVec, q0: &JointVec, from_here: bool) -> Result<JointV
 }
 
 /// One step of the controller at q, and the record of it but for its place in the run.
-fn decide(
-    experiment: &mut Experiment,
-    columns: &Columns,
-    q: &JointVec,
-    feedback: &Feedback,
-) -> Result<Record, ArmError> {
+fn decide(stretch: &mut Stretch, q: &JointVec, feedback: &Feedback) -> Result<Record, ArmError> {
+    let experiment = &mut stretch.experiment;
     let controller = &mut experiment.controller;
     let kinematics = controller.kinematics_at(q);
     let tool = kinematics.world_from(Frame::Tool).origin;
@@ -188,84 +238,40 @@ fn decide(
         .map_err(|error| ArmError::new("no-reference", error.to_string()))?;
     let step_ns = u64::try_from(before.elapsed().as_nanos()).unwrap_or(u64::MAX);
     // The log has all values, also those that the step had no need of.
-    let step = controller.measure();
+    controller.measure();
+    let step = stretch.experiment.controller.last_step();
     Ok(Record {
         tick: 0,
         t_s: 0.0,
-        active: step.active,
+        active: stretch.active(step),
         mode_changed: false,
         waypoint,
         reached,
-        task_values: columns.values(step),
+        task_values: stretch.values(step),
         tool,
         q: *q,
         qd: step.qd,
         qdd: step.qdd,
         q_measured: feedback.q,
-        reasons: step.reasons().to_vec(),
+        reasons: stretch.reasons(step),
         speed_limited: step.speed_limit.is_some(),
         no_mode: step.no_mode,
         landed: step.landed,
         pivots: step.pivots,
         modes_evaluated: step.modes_evaluated,
         step_ns,
-        missed_cycles: feedback.missed_cycles,
+        missed_cycles: 0,
+        revision: 0,
+        gliding: Vec::new(),
     })
 }
 
-/// Which numbers of the tasks stand in a record, in which order.
-#[derive(Clone, Debug)]
-pub struct Columns {
-    scalars: Vec<TaskId>,
-    equalities: Vec<TaskId>,
-}
-
-impl Columns {
-    /// The columns of a stack: values of its scalar tasks, then errors of its equality tasks.
-    pub fn new(stack: &Stack) -> Self {
-        Self {
-            scalars: stack
-                .iter()
-                .filter(|(_, level)| level.task().dimension() == 1)
-                .map(|(id, _)| id)
-                .collect(),
-            equalities: stack
-                .iter()
-                .filter(|(_, level)| level.interval().is_none())
-                .map(|(id, _)| id)
-                .collect(),
-        }
-    }
-
-    /// Names of the columns: `<task>`, then `<task>_error`.
-    pub fn names(&self, stack: &Stack) -> Vec<String> {
-        let values = self.scalars.iter().map(|&id| stack[id].name().to_owned());
-        let errors = self
-            .equalities
-            .iter()
-            .map(|&id| format!("{}_error", stack[id].name()));
-        values.chain(errors).collect()
-    }
-
-    /// The value of a task of one component, as it stands in a record.
-    pub fn value(&self, record: &Record, task: TaskId) -> Option<f64> {
-        let index = self.scalars.iter().position(|&other| other == task)?;
-        record.task_values.get(index).copied()
-    }
-
-    /// The norm of the error of an equality task, as it stands in a record.
-    pub fn error(&self, record: &Record, task: TaskId) -> Option<f64> {
-        record.task_values.get(self.error_index(task)?).copied()
-    }
-
-    fn error_index(&self, task: TaskId) -> Option<usize> {
-        let index = self.equalities.iter().position(|&other| other == task)?;
-        Some(self.scalars.len() + index)
-    }
-
-    fn values(&self, step: &Step) -> Vec<f64> {
-        let values = self.scalars.iter().map(|&id| step.value(id)[0]);
-        let errors = self.equalities.iter().map(|&id| step.error_norm(id));
-        values.chain(errors).collect()
+impl Stretch {
+    /// Lets the monitors see the tick that was decided last, at `t_s` [s].
+    fn observe(&mut self, t_s: f64) {
+        let controller = &self.experiment.controller;
+        let (stack, step): (_, &Step) = (controller.stack(), controller.last_step());
+        self.monitor.observe(stack, step, t_s);
+        self.announcements.observe(stack, step, t_s);
     }
 }

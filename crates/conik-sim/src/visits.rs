@@ -105,6 +105,16 @@ impl Visits {
         )
     }
 
+    /// Goes on where `before` was, with waypoints that may be other ones, and tells the task.
+    pub(crate) fn take_over(
+        &mut self,
+        before: &Self,
+        setpoints: &mut Setpoints<'_>,
+    ) -> Result<(), StackError> {
+        self.waypoints.take_over(&before.waypoints);
+        self.tell(setpoints)
+    }
+
     /// Called once at the start of each tick with the present [`pose`](Self::pose): takes the next waypoint
     /// if it is time to, and tells the task. Returns the index of one that is reached for the first time.
     pub(crate) fn advance(
@@ -114,21 +124,27 @@ impl Visits {
     ) -> Result<Option<usize>, StackError> {
         let reached = self.waypoints.advance(pose);
         if reached.is_some() {
-            let target = self.waypoints.target();
-            match self.what {
-                What::Point => setpoints.set_desired(self.task, &target.origin.to_array())?,
-                What::Orientation => {
-                    if let Some(orientation) = setpoints.task_mut::<Orientation>(self.task) {
-                        orientation.set_desired(target);
-                    }
+            self.tell(setpoints)?;
+        }
+        Ok(reached)
+    }
+
+    /// Tells the task the waypoint in use.
+    fn tell(&self, setpoints: &mut Setpoints<'_>) -> Result<(), StackError> {
+        let target = self.waypoints.target();
+        match self.what {
+            What::Point => setpoints.set_desired(self.task, &target.origin.to_array())?,
+            What::Orientation => {
+                if let Some(orientation) = setpoints.task_mut::<Orientation>(self.task) {
+                    orientation.set_desired(target);
                 }
-                What::Pose => {
-                    if let Some(pose) = setpoints.task_mut::<FramePose>(self.task) {
-                        pose.set_desired(target);
-                    }
+            }
+            What::Pose => {
+                if let Some(pose) = setpoints.task_mut::<FramePose>(self.task) {
+                    pose.set_desired(target);
                 }
             }
         }
-        Ok(reached)
+        Ok(())
     }
 }

@@ -86,6 +86,20 @@ impl Reason {
         }
     }
 
+    /// The same reason, with its task, if it is about one, under the number that it has elsewhere.
+    #[must_use]
+    pub fn renumbered(mut self, number: impl FnOnce(TaskId) -> TaskId) -> Self {
+        match &mut self {
+            Self::Holds { task, .. }
+            | Self::HoldsInside { task, .. }
+            | Self::LetsGo { task, .. }
+            | Self::LosesRank { task, .. }
+            | Self::GoesOutside(Outside { task, .. }) => *task = number(*task),
+            _ => {}
+        }
+        self
+    }
+
     /// The joint that it is about, counted from 0.
     pub fn joint(&self) -> Option<usize> {
         match *self {

@@ -110,6 +110,15 @@ impl PoseWaypoints {
         is_reached.then(|| self.progress.reach(self.poses.len()))
     }
 
+    /// Goes on where another list is: at the waypoint of the same number, or the last one if there are fewer.
+    pub fn take_over(&mut self, other: &Self) {
+        let last = self.poses.len() - 1;
+        self.progress = Progress {
+            index: other.index().min(last),
+            last_reached: other.is_done() && other.index() >= last,
+        };
+    }
+
     /// How far [m] and how much to turn [rad] it is from `pose` to `target`.
     pub fn to_go(target: &Pose, pose: &Pose) -> (f64, f64) {
         let turn = *pose * target.inverse();

@@ -2,9 +2,7 @@
 
 use conik::{Goal, Level};
 use conik_sim::experiment::{Experiment, ExperimentError};
-use conik_sim::scenario::{
-    Border, LinkShape, ModeRule, Obstacle, Recursion, Scenario, TaskConfig, TaskKind,
-};
+use conik_sim::scenario::{Border, LinkShape, ModeRule, Obstacle, Recursion, Scenario, TaskConfig};
 use conik_sim::summary::{Outcome, Properties, StepTime, Summary};
 use serde::Serialize;
 
@@ -107,7 +105,7 @@ impl Scene {
             let role = role(level, is_below);
             is_below |= role == Role::Equality;
             SceneTask {
-                between: between(scenario, &config),
+                between: scenario.between(&config),
                 ..SceneTask::new(level, role, config)
             }
         });
@@ -154,32 +152,6 @@ impl SceneTask {
             config,
         }
     }
-}
-
-/// The two shapes whose distance a task measures, if it does.
-fn between(scenario: &Scenario, config: &TaskConfig) -> Option<[String; 2]> {
-    // Tasks of the file name their shapes; those that shapes and obstacles become are named after them.
-    let mut tasks = scenario.tasks.iter();
-    match tasks.find(|task| task.name == config.name) {
-        Some(task) => match &task.kind {
-            TaskKind::ShapeDistance { shapes } => Some(shapes.clone()),
-            _ => None,
-        },
-        None => kept_apart(scenario, &config.name),
-    }
-}
-
-/// The names of which `task` is made. Names may have a `/` in them, so that no other way is sure.
-fn kept_apart(scenario: &Scenario, task: &str) -> Option<[String; 2]> {
-    let shapes = scenario.collision.shapes.iter().map(|shape| &shape.name);
-    let obstacles = scenario.collision.obstacles.iter().map(|it| &it.name);
-    let others: Vec<_> = obstacles.chain(shapes.clone()).collect();
-    shapes
-        .filter_map(|shape| Some((shape, task.strip_prefix(shape.as_str())?.strip_prefix('/')?)))
-        .find_map(|(shape, rest)| {
-            let other = others.iter().find(|other| **other == rest)?;
-            Some([shape.clone(), (*other).clone()])
-        })
 }
 
 #[cfg(test)]
@@ -239,16 +211,5 @@ mod tests {
         let gap = tasks.find(|task| task["name"] == "gap").unwrap();
         assert_eq!(gap["between"], json!(["hand", "post"]));
         assert_eq!(gap["min"], json!(0.05));
-    }
-
-    #[test]
-    fn slashes_in_names_are_no_riddle() {
-        let text = SHELF
-            .replace("name = \"forearm\"", "name = \"a/b\"")
-            .replace("name = \"post\"", "name = \"c/d\"");
-        let scenario = Scenario::from_toml(&text).unwrap();
-        let parts = kept_apart(&scenario, "a/b/c/d").unwrap();
-        assert_eq!(parts, ["a/b", "c/d"]);
-        assert_eq!(kept_apart(&scenario, "a/b/c"), None);
     }
 }

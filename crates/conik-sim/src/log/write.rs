@@ -6,8 +6,8 @@ use std::path::{Path, PathBuf};
 
 use conik::{ActiveSet, ModeOrder, Reason, Stack};
 
+use crate::columns::Columns;
 use crate::record::Record;
-use crate::run::Columns;
 
 /// Rows after which what is buffered goes to the file, so that a killed run leaves its log.
 const ROWS_BETWEEN_FLUSHES: u64 = 128;

@@ -183,6 +183,62 @@ impl Geometry {
         }
     }
 
+    /// The same shape, with that point somewhere else [m].
+    #[must_use]
+    pub(crate) fn moved_to(&self, place: [f64; 3]) -> Self {
+        let mut moved = self.clone();
+        let from = self.point();
+        let shift = [0, 1, 2].map(|axis| place[axis] - from[axis]);
+        match &mut moved {
+            Self::Sphere {
+                center_m: point, ..
+            }
+            | Self::Box {
+                center_m: point, ..
+            }
+            | Self::HalfSpace { point_m: point, .. } => *point = place,
+            Self::Capsule { from_m, to_m, .. } | Self::Cylinder { from_m, to_m, .. } => {
+                *from_m = place;
+                for (end, shift) in to_m.iter_mut().zip(shift) {
+                    *end += shift;
+                }
+            }
+        }
+        moved
+    }
+
+    /// Whether two shapes are the same but for rounding.
+    pub(crate) fn is_near(&self, other: &Self) -> bool {
+        let near = |a: [f64; 3], b: [f64; 3]| a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-9);
+        match (self, other) {
+            (
+                Self::Capsule {
+                    from_m,
+                    to_m,
+                    radius_m,
+                },
+                Self::Capsule {
+                    from_m: other_from,
+                    to_m: other_to,
+                    radius_m: other_radius,
+                },
+            )
+            | (
+                Self::Cylinder {
+                    from_m,
+                    to_m,
+                    radius_m,
+                },
+                Self::Cylinder {
+                    from_m: other_from,
+                    to_m: other_to,
+                    radius_m: other_radius,
+                },
+            ) => near(*from_m, *other_from) && near(*to_m, *other_to) && radius_m == other_radius,
+            _ => self == other,
+        }
+    }
+
     /// The name of its type in the file.
     pub fn type_name(&self) -> &'static str {
         match self {

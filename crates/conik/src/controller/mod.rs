@@ -379,6 +379,15 @@ impl Controller {
         &self.step
     }
 
+    /// Takes over the motion of another controller of the same robot: its last velocity, from which
+    /// accelerations are reckoned. Which sets were entered is found anew in the next step.
+    ///
+    /// # Panics
+    /// If the other one's robot has another number of joints.
+    pub fn take_over(&mut self, before: &Self) {
+        copy(&mut self.step.qd, &before.step.qd);
+    }
+
     /// The tasks.
     pub fn stack(&self) -> &Stack {
         &self.stack

@@ -176,6 +176,43 @@ impl Monitor {
         }
     }
 
+    /// Goes on where `before` was, in the same run, after a change of its stack. `places` has for each task
+    /// its place in the stack of then; of a task with `is_new` it starts afresh what its set is held
+    /// against, as it was another set. Does not allocate.
+    ///
+    /// # Panics
+    /// If the stacks differ in the number of tasks or joints, or `places` has another length.
+    pub fn take_over(&mut self, before: &Self, places: &[TaskId], is_new: impl Fn(TaskId) -> bool) {
+        assert_eq!(
+            places.len(),
+            self.histories.len(),
+            "one place for each task"
+        );
+        for (index, (history, place)) in self.histories.iter_mut().zip(places).enumerate() {
+            *history = before.histories[place.index()];
+            if is_new(TaskId::new(index)) {
+                history.entered_s = None;
+                history.best_violation = f64::INFINITY;
+            }
+        }
+        let now = |then: Option<TaskId>| {
+            let index = places.iter().position(|place| Some(*place) == then)?;
+            Some(TaskId::new(index))
+        };
+        for (property, then) in [
+            (&mut self.inside_stays, before.inside_stays),
+            (&mut self.outside_never_worse, before.outside_never_worse),
+            (&mut self.entered_stays, before.entered_stays),
+            (&mut self.low_priority_excess, before.low_priority_excess),
+        ] {
+            *property = Deviation {
+                task: now(then.task),
+                ..then
+            };
+        }
+        self.observations.take_over(&before.observations, now);
+    }
+
     /// What was seen so far besides the five properties.
     pub fn observations(&self) -> &Observations {
         &self.observations

@@ -116,6 +116,41 @@ impl Observations {
         }
     }
 
+    /// Goes on where `before` was; `now` gives the number of a task that had another one then.
+    pub(super) fn take_over(
+        &mut self,
+        before: &Self,
+        now: impl Fn(Option<TaskId>) -> Option<TaskId>,
+    ) {
+        for (seen, then) in [
+            (&mut self.rank_lost, before.rank_lost),
+            (&mut self.frozen_moves, before.frozen_moves),
+            (&mut self.frozen_inside, before.frozen_inside),
+            (&mut self.stuck, before.stuck),
+            (&mut self.went_outside, before.went_outside),
+            (&mut self.stood_still, before.stood_still),
+            (&mut self.mode_changes, before.mode_changes),
+        ] {
+            *seen = Occurrence {
+                task: now(then.task),
+                ..then
+            };
+        }
+        self.joints.copy_from_slice(&before.joints);
+        self.recent_changes.clear();
+        self.recent_changes
+            .extend_from_slice(&before.recent_changes);
+        self.oldest_change = before.oldest_change;
+        self.last_active = before.last_active.map(|active| {
+            let mut renumbered = ActiveSet::EMPTY;
+            for task in active.iter().filter_map(|task| now(Some(task))) {
+                renumbered.insert(task);
+            }
+            renumbered
+        });
+        self.still_since_s = before.still_since_s;
+    }
+
     pub(super) fn observe(&mut self, stack: &Stack, step: &Step, t_s: f64) {
         for reason in step.reasons() {
             self.observe_reason(stack, step, reason, t_s);
