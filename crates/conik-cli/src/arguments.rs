@@ -27,7 +27,7 @@ pub enum Command {
     Check(CheckArguments),
     /// Draw the figures of a run again from its log
     Plot(PlotArguments),
-    /// Replay a run, or two side by side, in a browser on this computer, until Ctrl-C
+    /// Watch and change a scenario while it runs, or replay one or two runs, in a browser, until Ctrl-C
     View(ViewArguments),
     /// Emulate a Universal Robots controller on its real ports, until Ctrl-C
     Emulate(EmulateArguments),
@@ -99,9 +99,43 @@ pub struct RunArguments {
     /// With `--robot HOST`: added to the controller's ports, as in `conik emulate --port-offset`
     #[arg(long, value_name = "N", default_value_t = 0)]
     pub port_offset: u16,
+    /// Who may watch.
+    #[command(flatten)]
+    pub watch: WatchArguments,
     /// What the file says otherwise.
     #[command(flatten)]
     pub overrides: Overrides,
+}
+
+/// Watching a run while it goes on.
+#[derive(Debug, Args)]
+#[command(next_help_heading = "Watch the run in a browser")]
+pub struct WatchArguments {
+    /// Serve a page that shows the run while it goes on, and from which simulated arms are paused, slowed
+    /// down, stepped and given other tasks. It stays until Ctrl-C
+    #[arg(long, conflicts_with = "fast")]
+    pub view: bool,
+    /// With `--view --robot HOST`: let whoever has the page change what the arm does
+    #[arg(long, requires = "view")]
+    pub allow_edit: bool,
+    /// Port of the page [default: any free one]
+    #[arg(
+        long,
+        value_name = "N",
+        requires = "view",
+        default_value_t = 0,
+        hide_default_value = true
+    )]
+    pub view_port: u16,
+    /// Address of this computer to serve the page on. Any but a loopback address can be reached from the
+    /// network: whoever has the address printed, with its token, can watch, and do what the page can
+    #[arg(
+        long,
+        value_name = "ADDRESS",
+        requires = "view",
+        default_value = "127.0.0.1"
+    )]
+    pub listen: std::net::IpAddr,
 }
 
 /// Settings that override the file.
@@ -160,20 +194,28 @@ pub struct PlotArguments {
 /// `conik view`
 #[derive(Debug, Args)]
 pub struct ViewArguments {
-    /// A folder that `conik run` wrote; with a second one, the two are compared
+    /// A scenario file, to be run with an ideal arm for as long as anybody watches; or a folder that
+    /// `conik run` wrote; or two of those, to be compared
     #[arg(
         required = true,
         num_args = 1..=2,
-        value_name = "DIR",
-        value_hint = ValueHint::DirPath
+        value_name = "SCENARIO|DIR",
+        value_hint = ValueHint::AnyPath
     )]
-    pub dirs: Vec<PathBuf>,
-    /// Port of 127.0.0.1 [default: any free one]
+    pub paths: Vec<PathBuf>,
+    /// Port of the page [default: any free one]
     #[arg(long, value_name = "N", default_value_t = 0, hide_default_value = true)]
     pub port: u16,
+    /// Address of this computer to serve the page on. Any but a loopback address can be reached from the
+    /// network: whoever has the address printed, with its token, can watch, and do what the page can
+    #[arg(long, value_name = "ADDRESS", default_value = "127.0.0.1")]
+    pub listen: std::net::IpAddr,
     /// Print the address of the page and nothing else
     #[arg(long, short)]
     pub quiet: bool,
+    /// What the scenario file says otherwise.
+    #[command(flatten)]
+    pub overrides: Overrides,
 }
 
 /// What the emulator assumes, for its help.

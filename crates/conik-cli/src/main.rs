@@ -9,6 +9,7 @@ mod monitors;
 mod overrides;
 mod present;
 mod progress;
+mod watched;
 
 use std::io::{self, Write};
 use std::process::ExitCode;

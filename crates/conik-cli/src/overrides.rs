@@ -6,6 +6,13 @@ use crate::arguments::Overrides;
 use crate::failure::Failure;
 
 impl Overrides {
+    /// Whether any of them is there.
+    pub fn is_any(&self) -> bool {
+        let choices = [&self.mode_rule, &self.border, &self.recursion];
+        let numbers = [self.duration_s, self.rate_hz];
+        choices.into_iter().any(Option::is_some) || numbers.iter().any(Option::is_some)
+    }
+
     /// Puts the options in the place of what the file says, and checks the whole again.
     pub fn apply(&self, scenario: &mut Scenario) -> Result<(), Failure> {
         let control = &mut scenario.control;

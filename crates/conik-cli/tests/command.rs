@@ -9,6 +9,7 @@ mod command {
     mod explain;
     mod gallery;
     mod gallery_pages;
+    mod live;
     mod monitors;
     mod network;
     mod outputs;

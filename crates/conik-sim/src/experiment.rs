@@ -72,7 +72,7 @@ impl Experiment {
     }
 
     /// The same, of which anything may be moved while it runs.
-    pub(crate) fn changeable(scenario: &Scenario) -> Result<Self, ExperimentError> {
+    pub fn changeable(scenario: &Scenario) -> Result<Self, ExperimentError> {
         Self::with_movers(scenario, |task, config| Some(Mover::of_any(task, config)))
     }
 

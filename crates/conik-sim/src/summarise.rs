@@ -175,8 +175,8 @@ impl Summariser {
             outcome,
             ended_at_s,
             monitors: None,
-            tasks: tasks(experiment, monitor, &self.held, ticked),
-            properties: properties(&seen, &self.task_names, ticked),
+            tasks: self.tasks(experiment, monitor, ticked),
+            properties: properties(&seen, experiment.controller.stack(), ticked),
             modes: self.modes,
             waypoints_reached_s: self.reached,
             final_q_rad: final_q.to_vec(),
@@ -188,7 +188,43 @@ impl Summariser {
             no_mode_ticks: self.no_mode_ticks,
             landing: lands.then_some(self.landing),
             step_work_max: self.step_work_max,
+            changes: Vec::new(),
         }
+    }
+
+    /// What became of each task. A person may have put them into another order than that in which they are
+    /// counted here.
+    fn tasks(
+        &self,
+        experiment: &Experiment,
+        monitor: &Monitor,
+        ticked: bool,
+    ) -> BTreeMap<String, TaskSummary> {
+        let period = experiment.period_s();
+        let stack = experiment.controller.stack();
+        let held = |name: &str| {
+            let place = self.task_names.iter().position(|task| task == name);
+            place.map_or(Held::default(), |place| self.held[place])
+        };
+        stack
+            .iter()
+            .map(|(id, level)| {
+                let history = monitor.history(id);
+                let held = held(level.name());
+                let is_set = matches!(level.goal(), Goal::Set { .. });
+                let summary = TaskSummary {
+                    min: history.min.is_finite().then_some(history.min),
+                    max: history.max.is_finite().then_some(history.max),
+                    worst_violation: is_set.then_some(history.worst_violation),
+                    entered_set_s: history.entered_s,
+                    final_error: (ticked && !is_set).then_some(history.final_error),
+                    active_s: is_set.then_some(history.active_ticks as f64 * period),
+                    held_times: is_set.then_some(held.times),
+                    largest_crossing: is_set.then_some(held.largest_crossing),
+                };
+                (level.name().to_owned(), summary)
+            })
+            .collect()
     }
 }
 
@@ -236,42 +272,13 @@ impl TrackingSum {
     }
 }
 
-fn tasks(
-    experiment: &Experiment,
-    monitor: &Monitor,
-    held: &[Held],
-    ticked: bool,
-) -> BTreeMap<String, TaskSummary> {
-    let period = experiment.period_s();
-    let stack = experiment.controller.stack();
-    stack
-        .iter()
-        .map(|(id, level)| {
-            let history = monitor.history(id);
-            let held = held[id.index()];
-            let is_set = matches!(level.goal(), Goal::Set { .. });
-            let summary = TaskSummary {
-                min: history.min.is_finite().then_some(history.min),
-                max: history.max.is_finite().then_some(history.max),
-                worst_violation: is_set.then_some(history.worst_violation),
-                entered_set_s: history.entered_s,
-                final_error: (ticked && !is_set).then_some(history.final_error),
-                active_s: is_set.then_some(history.active_ticks as f64 * period),
-                held_times: is_set.then_some(held.times),
-                largest_crossing: is_set.then_some(held.largest_crossing),
-            };
-            (level.name().to_owned(), summary)
-        })
-        .collect()
-}
-
 /// Without a single tick nothing was shown to hold.
-fn properties(properties: &conik::Properties, names: &[String], ticked: bool) -> Properties {
+fn properties(properties: &conik::Properties, stack: &Stack, ticked: bool) -> Properties {
     let property = |deviation: &Deviation| Property {
         holds: ticked && deviation.holds(),
         worst: deviation.worst,
         at_s: deviation.at_s,
-        task: deviation.task.map(|task| names[task.index()].clone()),
+        task: deviation.task.map(|task| stack[task].name().to_owned()),
     };
     Properties {
         equality_converges: property(&properties.equality_converges),

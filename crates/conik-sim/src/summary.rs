@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
 
 use crate::cycle_times::CycleSummary;
+use crate::live::Change;
 use crate::monitors::Monitors;
 use crate::scenario::Scenario;
 
@@ -56,6 +57,30 @@ pub struct Summary {
     /// The most work of one step.
     #[serde(default)]
     pub step_work_max: StepWork,
+    /// What people changed while the run went on; `settings` has the scenario from before.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub changes: Vec<ChangeMade>,
+}
+
+/// A change of the scenario while the run went on.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ChangeMade {
+    /// The first tick for which it held [s]; `None`: it was not in force yet.
+    pub t_s: Option<f64>,
+    /// What was changed; nothing where all changes were taken back.
+    pub changes: Vec<Change>,
+}
+
+impl ChangeMade {
+    /// These changes.
+    pub fn of(changes: Vec<Change>) -> Self {
+        Self { t_s: None, changes }
+    }
+
+    /// The scenario became again what it was before anybody changed it.
+    pub fn all_taken_back() -> Self {
+        Self::of(Vec::new())
+    }
 }
 
 /// The settings in force.

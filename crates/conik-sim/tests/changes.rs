@@ -51,7 +51,7 @@ fn run_with(first: &Scenario, changes: &[(u64, Vec<Change>)]) -> (Ended, Vec<Rec
     };
     helm.set_speed(1e6);
     let ended = run::run_steered(
-        Stretch::first_of(first).unwrap(),
+        Stretch::first(Experiment::changeable(first).unwrap()),
         &mut arm,
         &mut sink,
         &AtomicBool::new(false),
@@ -146,7 +146,7 @@ fn direction_of_view_turns_and_takes_the_arm_along() {
 
 #[test]
 fn other_order_and_rule_keep_the_numbers_of_the_tasks() {
-    let scenario = example2(25.0);
+    let scenario = example2(50.0);
     let changes = vec![
         change(json!({"order": ["view", "obstacle_b", "obstacle_a", "position"]})),
         change(json!({"control": "recursion", "value": "chiaverini"})),

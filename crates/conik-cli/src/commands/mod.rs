@@ -20,7 +20,7 @@ use crate::failure::Failure;
 use crate::layout::wrapped;
 
 /// Prints to standard output. A reader that went away (`conik schema | head`) is no failure.
-fn print(text: &str) -> Result<ExitCode, Failure> {
+pub(crate) fn print(text: &str) -> Result<ExitCode, Failure> {
     let mut out = io::stdout().lock();
     match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
         Err(error) if error.kind() != io::ErrorKind::BrokenPipe => Err(Failure::run(format!(

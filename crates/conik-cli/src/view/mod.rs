@@ -4,6 +4,8 @@
 //! happened), as `docs/page.md` describes them. The page itself is `viewer/`, built into one file that
 //! is embedded here. Nothing here draws.
 
+mod guard;
+pub mod live;
 mod page;
 mod recording;
 mod robot;

@@ -53,6 +53,19 @@ impl Recording {
         })
     }
 
+    /// A run that goes on, as it is now.
+    pub(super) fn of_live(name: &str, scene: Scene, ticks: Ticks) -> Self {
+        Self {
+            kind: "recording",
+            protocol: PROTOCOL,
+            runs: vec![RecordedRun {
+                name: name.to_owned(),
+                scene,
+                ticks,
+            }],
+        }
+    }
+
     /// As the page reads it.
     pub fn to_json(&self) -> String {
         // Names are text, and the rest numbers and lists: nothing that JSON does not have.

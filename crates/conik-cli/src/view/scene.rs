@@ -24,7 +24,8 @@ pub struct Scene {
     rate_hz: f64,
     duration_s: f64,
     settings: Settings,
-    robot: RobotTree,
+    /// `None` where whoever reads it has it.
+    robot: Option<RobotTree>,
     /// Shapes on links, as in the scenario.
     shapes: Vec<LinkShape>,
     /// Shapes in the world, as in the scenario.
@@ -96,6 +97,27 @@ impl Scene {
         })
     }
 
+    /// The scene of a run that goes on.
+    pub(super) fn live(
+        scenario: &Scenario,
+        arm: &str,
+        is_editable: bool,
+    ) -> Result<Self, ExperimentError> {
+        Ok(Self {
+            live: true,
+            editable: is_editable,
+            ..Self::new(scenario, arm)?
+        })
+    }
+
+    /// The same, for those who have the robot.
+    pub(super) fn without_robot(&self) -> Self {
+        Self {
+            robot: None,
+            ..self.clone()
+        }
+    }
+
     fn new(scenario: &Scenario, arm: &str) -> Result<Self, ExperimentError> {
         let experiment = Experiment::new(scenario)?;
         let stack = experiment.controller.stack();
@@ -123,7 +145,7 @@ impl Scene {
                 border: scenario.control.border,
                 recursion: scenario.control.recursion,
             },
-            robot: RobotTree::of(&experiment.robot),
+            robot: Some(RobotTree::of(&experiment.robot)),
             shapes: scenario.collision.shapes.clone(),
             obstacles: scenario.collision.obstacles.clone(),
             tasks: tasks.collect(),

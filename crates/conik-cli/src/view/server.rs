@@ -6,7 +6,7 @@
 
 use std::convert::Infallible;
 use std::io;
-use std::net::{Ipv4Addr, SocketAddr, TcpListener};
+use std::net::{IpAddr, Ipv4Addr, SocketAddr, TcpListener};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
@@ -14,12 +14,14 @@ use std::time::Duration;
 use http_body_util::Full;
 use hyper::body::{Bytes, Incoming};
 use hyper::header::{self, HeaderName, HeaderValue};
-use hyper::http::uri::Authority;
 use hyper::service::service_fn;
-use hyper::{HeaderMap, Method, Request, Response, StatusCode};
+use hyper::{Method, Request, Response, StatusCode};
 use hyper_util::rt::{TokioIo, TokioTimer};
-use tokio::sync::Semaphore;
+use tokio::sync::{OwnedSemaphorePermit, Semaphore};
+use tokio_tungstenite::tungstenite::handshake::derive_accept_key;
 
+use super::guard::Guard;
+use super::live::{Live, attend};
 use super::{PAGE, Recording};
 
 /// Bytes of the largest request head. A browser's is a few hundred.
@@ -28,8 +30,8 @@ const LARGEST_HEAD: usize = 16 * 1024;
 const HEAD_WITHIN: Duration = Duration::from_secs(10);
 /// For how long a connection lives: a client that reads no further has its place taken back.
 const LONGEST_CONNECTION: Duration = Duration::from_secs(120);
-/// Connections at a time; a browser keeps about six.
-const MOST_CONNECTIONS: usize = 64;
+/// Connections at a time; a browser keeps about six, one of them for as long as it watches.
+const MOST_CONNECTIONS: usize = 256;
 /// Between two looks at whether to stop.
 const LOOK_EVERY: Duration = Duration::from_millis(100);
 
@@ -49,6 +51,9 @@ const HEADERS: [(HeaderName, &str); 6] = [
     ),
 ];
 
+/// Between two bundles of what is new in a run that goes on: 30 a second.
+const BUNDLE_EVERY: Duration = Duration::from_millis(33);
+
 /// A server that listens and does not answer yet.
 #[derive(Debug)]
 pub struct Server {
@@ -57,32 +62,70 @@ pub struct Server {
     site: Arc<Site>,
 }
 
-/// All that is handed out, and the names under which.
+/// Where to listen, and who may come.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Place {
+    /// The address; only this computer can reach a loopback address.
+    pub address: IpAddr,
+    /// The port; 0: any free one.
+    pub port: u16,
+}
+
+impl Place {
+    /// A port of 127.0.0.1.
+    pub const fn here(port: u16) -> Self {
+        Self {
+            address: IpAddr::V4(Ipv4Addr::LOCALHOST),
+            port,
+        }
+    }
+}
+
+/// All that is handed out, and to whom.
 #[derive(Debug)]
 struct Site {
-    hosts: Vec<String>,
-    recording: Bytes,
+    guard: Guard,
+    shown: Shown,
+}
+
+/// What is shown.
+#[derive(Debug)]
+enum Shown {
+    /// Runs that are over.
+    Recording(Bytes),
+    /// One that goes on.
+    Live(Arc<Live>),
 }
 
 impl Server {
-    /// Listens on this port of 127.0.0.1, on any free one if it is 0, with the runs of a recording.
-    pub fn bind(port: u16, recording: &Recording) -> io::Result<Self> {
-        let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, port))?;
+    /// Listens there, with the runs of a recording.
+    pub fn with_recording(place: Place, recording: &Recording) -> io::Result<Self> {
+        Self::bind(place, Shown::Recording(recording.to_json().into()))
+    }
+
+    /// Listens there, with a run that goes on.
+    pub fn with_live(place: Place, live: Arc<Live>) -> io::Result<Self> {
+        Self::bind(place, Shown::Live(live))
+    }
+
+    fn bind(place: Place, shown: Shown) -> io::Result<Self> {
+        let listener = TcpListener::bind((place.address, place.port))?;
         let address = listener.local_addr()?;
-        let site = Site {
-            hosts: hosts(address.port()),
-            recording: recording.to_json().into(),
+        let guard = if address.ip().is_loopback() {
+            Guard::of_loopback(address)
+        } else {
+            Guard::with_new_token()?
         };
         Ok(Self {
             listener,
             address,
-            site: Arc::new(site),
+            site: Arc::new(Site { guard, shown }),
         })
     }
 
-    /// Where the page is.
+    /// Where the page is. Beyond this computer, whoever has it may look, and do what those may who look.
     pub fn url(&self) -> String {
-        format!("http://{}/", self.address)
+        format!("http://{}/{}", self.address, self.site.guard.query())
     }
 
     /// Answers until `stop` is set.
@@ -95,16 +138,16 @@ impl Server {
         runtime.block_on(async {
             let listener = tokio::net::TcpListener::from_std(self.listener)?;
             let places = Arc::new(Semaphore::new(MOST_CONNECTIONS));
+            if let Shown::Live(live) = &self.site.shown {
+                tokio::spawn(send_bundles(Arc::clone(live)));
+            }
             while !stop.load(Ordering::Relaxed) {
                 match tokio::time::timeout(LOOK_EVERY, listener.accept()).await {
                     Ok(Ok((stream, _))) => {
                         // Whoever finds no place is let go at once.
                         if let Ok(place) = Arc::clone(&places).try_acquire_owned() {
-                            let answered = answer(stream, Arc::clone(&self.site));
-                            tokio::spawn(async move {
-                                answered.await;
-                                drop(place);
-                            });
+                            let place = Arc::new(place);
+                            tokio::spawn(answer(stream, Arc::clone(&self.site), place));
                         }
                     }
                     // A client that was gone before it was greeted, or no files left: not for long.
@@ -112,38 +155,52 @@ impl Server {
                     Err(_) => {}
                 }
             }
+            if let Shown::Live(live) = &self.site.shown {
+                // What happened last is to be seen too.
+                live.send_bundle();
+                tokio::time::sleep(LOOK_EVERY).await;
+            }
             Ok(())
         })
     }
 }
 
-async fn answer(stream: tokio::net::TcpStream, site: Arc<Site>) {
-    let service = service_fn(move |request: Request<Incoming>| {
-        let response = site.respond(&request);
+async fn send_bundles(live: Arc<Live>) {
+    let mut every = tokio::time::interval(BUNDLE_EVERY);
+    every.set_missed_tick_behavior(tokio::time::MissedTickBehavior::Delay);
+    loop {
+        every.tick().await;
+        live.send_bundle();
+    }
+}
+
+/// `place` is kept until the connection is closed.
+async fn answer(stream: tokio::net::TcpStream, site: Arc<Site>, place: Arc<OwnedSemaphorePermit>) {
+    // Small messages are to be on their way at once; if that cannot be had, they come later.
+    let _ = stream.set_nodelay(true);
+    let held = Arc::clone(&place);
+    let service = service_fn(move |mut request: Request<Incoming>| {
+        let response = site.respond(&mut request, &held);
         async { Ok::<_, Infallible>(response) }
     });
     let connection = hyper::server::conn::http1::Builder::new()
         .timer(TokioTimer::new())
         .header_read_timeout(HEAD_WITHIN)
         .max_buf_size(LARGEST_HEAD)
-        .serve_connection(TokioIo::new(stream), service);
+        .serve_connection(TokioIo::new(stream), service)
+        .with_upgrades();
     // However it ends, nobody is left who could be told.
     let _ = tokio::time::timeout(LONGEST_CONNECTION, connection).await;
-}
-
-/// The names of this server in `Host`.
-fn hosts(port: u16) -> Vec<String> {
-    let names = ["127.0.0.1", "localhost", "[::1]"];
-    let with_port = names.iter().map(|name| format!("{name}:{port}"));
-    // Browsers leave out the port of the protocol.
-    let without = names.iter().map(|&name| name.to_owned());
-    let without = without.filter(|_| port == 80);
-    with_port.chain(without).collect()
+    drop(place);
 }
 
 impl Site {
-    fn respond(&self, request: &Request<Incoming>) -> Response<Full<Bytes>> {
-        if let Err((status, text)) = self.admit(request) {
+    fn respond(
+        &self,
+        request: &mut Request<Incoming>,
+        place: &Arc<OwnedSemaphorePermit>,
+    ) -> Response<Full<Bytes>> {
+        if let Err((status, text)) = self.guard.admit(request) {
             return plain(status, text);
         }
         if ![Method::GET, Method::HEAD].contains(request.method()) {
@@ -155,59 +212,81 @@ impl Site {
             refused.headers_mut().insert(header::ALLOW, allowed);
             return refused;
         }
-        match request.uri().path() {
-            "/" => response(StatusCode::OK, "text/html; charset=utf-8", PAGE.into()),
-            "/recording.json" => {
-                let recording = self.recording.clone();
+        match (request.uri().path(), &self.shown) {
+            ("/", _) => response(StatusCode::OK, "text/html; charset=utf-8", PAGE.into()),
+            ("/recording.json", shown) => {
+                let recording = match shown {
+                    Shown::Recording(recording) => recording.clone(),
+                    Shown::Live(live) => live.recording().into(),
+                };
                 response(StatusCode::OK, "application/json", recording)
             }
+            ("/live", Shown::Live(live)) => upgrade(request, live, place),
             _ => plain(StatusCode::NOT_FOUND, "there is no such page\n"),
-        }
-    }
-
-    /// Whether the request is meant for this server, and comes from its own page if from any.
-    fn admit(&self, request: &Request<Incoming>) -> Result<(), Refusal> {
-        let headers = request.headers();
-        let is_ours = |host: &str| {
-            self.hosts
-                .iter()
-                .any(|ours| ours.eq_ignore_ascii_case(host))
-        };
-        let target = request.uri().authority().map(Authority::as_str);
-        if !only(headers, &header::HOST)?.is_some_and(is_ours) || !target.is_none_or(is_ours) {
-            let text = "this server answers to 127.0.0.1 and localhost, with its port\n";
-            return Err((StatusCode::FORBIDDEN, text));
-        }
-        let is_own_page = |origin: &str| origin.strip_prefix("http://").is_some_and(is_ours);
-        let is_own = only(headers, &header::ORIGIN)?.is_none_or(is_own_page);
-        // What browsers say of requests that have no origin, pictures and scripts for instance.
-        let site = only(headers, &HeaderName::from_static("sec-fetch-site"))?;
-        let is_near = site.is_none_or(|site| ["same-origin", "none"].contains(&site));
-        // A link from elsewhere may lead to the page, which shows nothing to whoever set it.
-        let is_page = request.uri().path() == "/" && request.method() == Method::GET;
-        if is_own && (is_near || is_page) {
-            Ok(())
-        } else {
-            Err((StatusCode::FORBIDDEN, "other sites are not answered\n"))
         }
     }
 }
 
-/// Why a request is not answered.
-type Refusal = (StatusCode, &'static str);
-
-/// The value of a header that may be there once, if it is there.
-fn only<'a>(headers: &'a HeaderMap, name: &HeaderName) -> Result<Option<&'a str>, Refusal> {
-    let refused = (
-        StatusCode::BAD_REQUEST,
-        "a header is there twice, or is no text\n",
-    );
-    let mut values = headers.get_all(name).iter();
-    match (values.next(), values.next()) {
-        (None, _) => Ok(None),
-        (Some(value), None) => value.to_str().map(Some).map_err(|_| refused),
-        (Some(_), Some(_)) => Err(refused),
-    }
+/// Makes a WebSocket of the connection, if that is what is asked for.
+fn upgrade(
+    request: &mut Request<Incoming>,
+    live: &Arc<Live>,
+    place: &Arc<OwnedSemaphorePermit>,
+) -> Response<Full<Bytes>> {
+    let headers = request.headers();
+    let has = |name: HeaderName, wanted: &str| {
+        let values = headers.get_all(name).iter();
+        let mut words = values.filter_map(|value| {
+            value
+                .to_str()
+                .ok()?
+                .split(',')
+                .map(str::trim)
+                .map(|word| word.eq_ignore_ascii_case(wanted))
+                .reduce(|a, b| a || b)
+        });
+        words.any(|is_it| is_it)
+    };
+    let key = headers.get(header::SEC_WEBSOCKET_KEY);
+    let is_asked = request.method() == Method::GET
+        && has(header::CONNECTION, "upgrade")
+        && has(header::UPGRADE, "websocket")
+        && has(header::SEC_WEBSOCKET_VERSION, "13");
+    let Some(key) = key.filter(|_| is_asked) else {
+        let mut refused = plain(
+            StatusCode::UPGRADE_REQUIRED,
+            "this is a WebSocket, version 13\n",
+        );
+        for (name, value) in [
+            (header::CONNECTION, "Upgrade"),
+            (header::UPGRADE, "websocket"),
+            (header::SEC_WEBSOCKET_VERSION, "13"),
+        ] {
+            refused
+                .headers_mut()
+                .insert(name, HeaderValue::from_static(value));
+        }
+        return refused;
+    };
+    let accept = derive_accept_key(key.as_bytes());
+    let Ok(accept) = HeaderValue::from_str(&accept) else {
+        return plain(StatusCode::BAD_REQUEST, "that key is none\n");
+    };
+    let upgraded = hyper::upgrade::on(request);
+    let (live, place) = (Arc::clone(live), Arc::clone(place));
+    tokio::spawn(async move {
+        if let Ok(connection) = upgraded.await {
+            attend(live, connection).await;
+        }
+        drop(place);
+    });
+    let mut switching = plain(StatusCode::SWITCHING_PROTOCOLS, "");
+    let headers = switching.headers_mut();
+    headers.remove(header::CONTENT_TYPE);
+    headers.insert(header::CONNECTION, HeaderValue::from_static("Upgrade"));
+    headers.insert(header::UPGRADE, HeaderValue::from_static("websocket"));
+    headers.insert(header::SEC_WEBSOCKET_ACCEPT, accept);
+    switching
 }
 
 fn plain(status: StatusCode, text: &'static str) -> Response<Full<Bytes>> {

@@ -33,6 +33,29 @@ pub struct Ticks {
 }
 
 impl Ticks {
+    /// Ticks of which the columns are there already; `active` and `why` with the lists that they refer to.
+    pub(super) fn from_columns(
+        every: usize,
+        t_s: Vec<f64>,
+        mode: Vec<Option<u64>>,
+        (active, active_sets): (Vec<u32>, Vec<Vec<String>>),
+        (why, reasons): (Vec<u32>, Vec<Vec<String>>),
+        columns: BTreeMap<String, Vec<f32>>,
+    ) -> Self {
+        Self {
+            kind: "ticks",
+            protocol: PROTOCOL,
+            every,
+            t_s,
+            mode,
+            active,
+            active_sets,
+            why,
+            reasons,
+            columns,
+        }
+    }
+
     /// The ticks of a log, of which no more than about `most` rows are taken.
     pub fn of(log: &Log, most: usize) -> Self {
         let every = log.len().div_ceil(most.max(1)).max(1);

@@ -10,7 +10,7 @@ use super::run_folder::{Rows, summary};
 const RTDE_PORT: u16 = 30004;
 
 /// An emulator at the start of example 2, and its port offset: the first that is free.
-fn emulator(folder: &Path) -> (Running, u16) {
+pub fn emulator(folder: &Path) -> (Running, u16) {
     let example = paper("example2");
     for offset in (1000..20_000).step_by(37) {
         let line = format!(

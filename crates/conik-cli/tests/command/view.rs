@@ -268,12 +268,14 @@ fn what_is_no_run_is_refused() {
     fs::write(folder.join("scenario.toml"), "").unwrap();
     fs::create_dir(folder.join("empty")).unwrap();
     for (line, says) in [
-        ("view nowhere", "nowhere/summary.json: cannot be read"),
+        ("view nowhere", "nowhere: cannot be read"),
+        ("view empty nowhere", "is this the folder of a run?"),
         ("view empty", "is this the folder of a run?"),
         (
-            "view scenario.toml",
-            "scenario.toml is a file; give the folder",
+            "view scenario.toml empty",
+            "scenario.toml is a file; only folders",
         ),
+        ("view empty --border land", "cannot be changed"),
         ("view", "required"),
     ] {
         let said = ended(conik(line.split_whitespace()).current_dir(&folder));

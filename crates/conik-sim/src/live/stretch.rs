@@ -55,16 +55,11 @@ pub enum StretchError {
 }
 
 impl Stretch {
-    /// The first one of a run.
+    /// The first one of a run. If it may change, the experiment is [`Experiment::changeable`].
     pub fn first(experiment: Experiment) -> Self {
         let stack = experiment.controller.stack();
         let first: Vec<TaskId> = stack.iter().map(|(id, _)| id).collect();
         Self::new(experiment, first.clone(), first)
-    }
-
-    /// The first one of a run that people may change.
-    pub fn first_of(scenario: &Scenario) -> Result<Self, ExperimentError> {
-        Ok(Self::first(Experiment::changeable(scenario)?))
     }
 
     /// One of the same run by another scenario; `first` is that by which it began. `speeds`: names of tasks,
@@ -159,6 +154,7 @@ impl Stretch {
         self.announcements
             .take_over(&before.announcements, &self.kept, controller.stack());
         self.experiment.from_here = before.experiment.from_here;
+        self.experiment.last_tick = before.experiment.last_tick;
         if let (Some(visits), Some(old)) =
             (&mut self.experiment.waypoints, &before.experiment.waypoints)
         {

@@ -1,0 +1,428 @@
+//! One run that goes on: what it is about, what has happened, what is asked of it.
+
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::time::{Duration, Instant};
+
+use conik_sim::experiment::{Experiment, ExperimentError};
+use conik_sim::live::{Change, Helm, Stretch};
+use conik_sim::record::Record;
+use conik_sim::scenario::Scenario;
+use conik_sim::summary::{ChangeMade, Outcome};
+use tokio::sync::broadcast;
+use tokio_tungstenite::tungstenite::Utf8Bytes;
+
+use super::allowed::{Act, Allowed};
+use super::history::History;
+use super::message::{Asked, Glide, LiveScene, LiveTicks, Request, Running, State, Told, json};
+use super::state::StepTimes;
+use crate::view::{MOST_ROWS, Recording, Scene, Ticks};
+
+/// Bundles that may wait for a client: two seconds' worth. One that is further behind is cut off.
+const BUNDLES_WAITING: usize = 64;
+
+/// How long the state may go untold.
+const TELL_STATE_EVERY: Duration = Duration::from_secs(1);
+
+/// Ticks that may be asked for at once.
+const MOST_TICKS: u32 = 1000;
+
+/// The fastest that a simulated run may go.
+const FASTEST: f64 = 10.0;
+
+/// Which arm is driven.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Arm {
+    /// One that exists in this program only.
+    Simulated {
+        /// Whether it has a clock of its own, so that it cannot go faster than that.
+        has_clock: bool,
+    },
+    /// Any other.
+    Outside {
+        /// Whether those who watch may change what it does.
+        may_edit: bool,
+    },
+}
+
+/// A run that goes on, for all who watch it.
+#[derive(Debug)]
+pub struct Live {
+    /// Where the loop is told what to do.
+    helm: Helm,
+    arm: Arm,
+    /// Name of the scenario, and of the arm.
+    name: String,
+    arm_name: String,
+    viewers: AtomicUsize,
+    session: Mutex<Session>,
+    bundles: broadcast::Sender<Utf8Bytes>,
+}
+
+#[derive(Debug)]
+struct Session {
+    /// As it was read, as the run began, and as it is now.
+    original: Scenario,
+    first: Scenario,
+    present: Scenario,
+    revision: u64,
+    scene: Scene,
+    from_s: f64,
+    /// By what name to tell of each task that glides.
+    gliding_names: Vec<String>,
+    history: History,
+    is_to_reset: bool,
+    steps: StepTimes,
+    deadline_misses: u64,
+    t_s: f64,
+    outcome: Option<Outcome>,
+    made: Vec<(u64, ChangeMade)>,
+    told: Option<(Instant, State)>,
+}
+
+impl Live {
+    /// A run of this scenario, which has not begun. `name` is the scenario's, `arm_name` as in the summary.
+    pub fn new(
+        name: &str,
+        scenario: &Scenario,
+        arm: Arm,
+        arm_name: &str,
+    ) -> Result<Self, ExperimentError> {
+        let may_change = arm != Arm::Outside { may_edit: false };
+        let scene = Scene::live(scenario, arm_name, may_change)?;
+        let experiment = Experiment::new(scenario)?;
+        let (bundles, _) = broadcast::channel(BUNDLES_WAITING);
+        Ok(Self {
+            helm: match arm {
+                Arm::Simulated { .. } => Helm::of_simulated(),
+                Arm::Outside { .. } => Helm::of_outside(),
+            },
+            arm,
+            name: name.to_owned(),
+            arm_name: arm_name.to_owned(),
+            viewers: AtomicUsize::new(0),
+            session: Mutex::new(Session {
+                original: scenario.clone(),
+                first: scenario.clone(),
+                present: scenario.clone(),
+                revision: 0,
+                scene,
+                from_s: 0.0,
+                gliding_names: gliding_names(scenario),
+                history: History::of(&experiment, MOST_ROWS),
+                is_to_reset: false,
+                steps: StepTimes::default(),
+                deadline_misses: 0,
+                t_s: 0.0,
+                outcome: None,
+                made: Vec::new(),
+                told: None,
+            }),
+            bundles,
+        })
+    }
+
+    /// Where the loop is told what to do.
+    pub fn helm(&self) -> &Helm {
+        &self.helm
+    }
+
+    /// Takes in a tick.
+    pub fn take(&self, record: &Record) {
+        let session = &mut *self.session();
+        session.t_s = record.t_s;
+        session.deadline_misses += record.missed_cycles;
+        session.steps.add(record.step_ns);
+        session.is_to_reset |= session.history.take(record);
+        let unseen = session.made.iter_mut().rev();
+        for (revision, made) in unseen.take_while(|(_, made)| made.t_s.is_none()) {
+            if *revision <= record.revision {
+                made.t_s = Some(record.t_s);
+            }
+        }
+    }
+
+    /// The run has ended.
+    pub fn end(&self, outcome: Outcome) {
+        self.helm.end();
+        self.session().outcome = Some(outcome);
+    }
+
+    /// The changes that were in force at some time.
+    pub fn changes(&self) -> Vec<ChangeMade> {
+        let session = self.session();
+        let made = session.made.iter().map(|(_, made)| made);
+        made.filter(|made| made.t_s.is_some()).cloned().collect()
+    }
+
+    /// Another run begins, by the scenario as it is now, which is returned.
+    ///
+    /// # Errors
+    /// None that did not come up when it was changed.
+    pub fn begin_anew(&self) -> Result<Scenario, ExperimentError> {
+        let session = &mut *self.session();
+        let scenario = session.present.clone();
+        session.history = History::of(&Experiment::new(&scenario)?, MOST_ROWS);
+        session.gliding_names = gliding_names(&scenario);
+        session.first = scenario.clone();
+        session.is_to_reset = true;
+        session.t_s = 0.0;
+        session.from_s = 0.0;
+        session.deadline_misses = 0;
+        session.outcome = None;
+        session.made.clear();
+        self.helm.begin_anew();
+        self.helm.set_revision(session.revision);
+        self.send(&session.scene_message(&self.name, false));
+        Ok(scenario)
+    }
+
+    /// What happened so far, as of a recorded run.
+    pub(in crate::view) fn recording(&self) -> String {
+        let session = &mut *self.session();
+        self.send_unsent(session);
+        Recording::of_live(&self.name, session.scene.clone(), session.history.all()).to_json()
+    }
+
+    /// Sends to all clients what is new.
+    pub(in crate::view) fn send_bundle(&self) {
+        let session = &mut *self.session();
+        self.send_unsent(session);
+        let state = self.state(session);
+        let is_told = session.told.as_ref().is_some_and(|(when, told)| {
+            *told
+                == State {
+                    t_s: told.t_s,
+                    step_time_us: told.step_time_us,
+                    ..state.clone()
+                }
+                && when.elapsed() < TELL_STATE_EVERY
+        });
+        if !is_told {
+            self.send(&json(&Told::State(state.clone())));
+            session.told = Some((Instant::now(), state));
+        }
+    }
+
+    fn send_unsent(&self, session: &mut Session) {
+        let reset = std::mem::take(&mut session.is_to_reset);
+        let ticks = if reset {
+            Some(session.history.all())
+        } else {
+            session.history.unsent()
+        };
+        if let Some(ticks) = ticks {
+            self.send(&session.ticks_message(ticks, reset));
+        }
+    }
+
+    /// Nobody there is no error.
+    fn send(&self, message: &str) {
+        let _ = self.bundles.send(message.into());
+    }
+
+    /// What a new client is told first, and everything after.
+    pub(super) fn greet(&self) -> (Vec<String>, broadcast::Receiver<Utf8Bytes>) {
+        self.viewers.fetch_add(1, Ordering::Relaxed);
+        self.helm.begin();
+        let session = &mut *self.session();
+        self.send_unsent(session);
+        let ticks = session.history.all();
+        let messages = vec![
+            json(&Told::hello()),
+            session.scene_message(&self.name, true),
+            session.ticks_message(ticks, true),
+            json(&Told::State(self.state(session))),
+        ];
+        (messages, self.bundles.subscribe())
+    }
+
+    /// A client is gone.
+    pub(super) fn leave(&self) {
+        self.viewers.fetch_sub(1, Ordering::Relaxed);
+    }
+
+    fn state(&self, session: &Session) -> State {
+        let has_ended = session.outcome.is_some();
+        let allowed = Allowed::with(self.arm, has_ended);
+        State {
+            running: match () {
+                () if has_ended => Running::Ended,
+                () if !self.helm.has_begun() => Running::Waiting,
+                () if self.helm.is_paused() => Running::Paused,
+                () => Running::Running,
+            },
+            t_s: session.t_s,
+            speed: self.helm.speed(),
+            allowed: allowed.acts,
+            refusal: allowed.refusal,
+            step_time_us: session.steps.summary(),
+            deadline_misses: session.deadline_misses,
+            outcome: session.outcome.clone(),
+            viewers: self.viewers.load(Ordering::Relaxed),
+            revision: self.helm.revision(),
+            edited: session.present != session.original,
+        }
+    }
+
+    /// Does what a client asks; the answer.
+    pub(super) fn answer(&self, text: &str) -> String {
+        let asked = serde_json::from_str::<Request>(text);
+        let Request { id, what } = match asked {
+            Ok(request) => request,
+            Err(error) => {
+                let id = serde_json::from_str::<serde_json::Value>(text);
+                let id = id.ok().and_then(|it| it["id"].as_f64());
+                return json(&Told::Answer {
+                    id: id.unwrap_or(-1.0),
+                    revision: None,
+                    error: Some(format!("not a message of the protocol: {error}")),
+                });
+            }
+        };
+        if let Asked::Save = what {
+            return json(&Told::Text {
+                id,
+                name: format!("{}-edited.toml", self.name),
+                toml: self.session().present.to_toml(),
+            });
+        }
+        let done = self.act(what);
+        json(&Told::Answer {
+            id,
+            revision: done.as_ref().ok().copied(),
+            error: done.err(),
+        })
+    }
+
+    /// The number of the newest change, after it was done.
+    fn act(&self, what: Asked) -> Result<u64, String> {
+        let session = &mut *self.session();
+        let allowed = Allowed::with(self.arm, session.outcome.is_some());
+        let helm = &self.helm;
+        match what {
+            Asked::Pause => {
+                allowed.check(Act::Pause)?;
+                helm.pause();
+            }
+            Asked::Resume => {
+                allowed.check(Act::Pause)?;
+                helm.resume();
+            }
+            Asked::Step { ticks } => {
+                allowed.check(Act::Step)?;
+                if !(1..=MOST_TICKS).contains(&ticks) {
+                    return Err(format!("`ticks` must be 1 to {MOST_TICKS}, not {ticks}"));
+                }
+                helm.step(ticks);
+            }
+            Asked::Speed { factor } => {
+                allowed.check(Act::Speed)?;
+                let fastest = self.fastest();
+                if !(factor >= Helm::LEAST_SPEED && factor <= fastest) {
+                    let least = Helm::LEAST_SPEED;
+                    return Err(format!(
+                        "`factor` must be {least} to {fastest} with this arm, not {factor}"
+                    ));
+                }
+                helm.set_speed(factor);
+            }
+            Asked::Restart => {
+                allowed.check(Act::Restart)?;
+                helm.restart();
+            }
+            Asked::Reset => {
+                allowed.check(Act::Change)?;
+                let original = session.original.clone();
+                self.go_by(session, original, &[], ChangeMade::all_taken_back())?;
+            }
+            Asked::Change { changes } => {
+                allowed.check(Act::Change)?;
+                self.change(session, changes)?;
+            }
+            // Answered by others.
+            Asked::Save => {}
+        }
+        Ok(session.revision)
+    }
+
+    /// The greatest speed at which the run may go.
+    fn fastest(&self) -> f64 {
+        match self.arm {
+            Arm::Simulated { has_clock: false } => FASTEST,
+            _ => 1.0,
+        }
+    }
+
+    fn change(&self, session: &mut Session, changes: Vec<Change>) -> Result<(), String> {
+        let changed = session.present.changed(&changes, session.t_s);
+        let (scenario, speeds) = changed.map_err(|error| error.to_string())?;
+        self.go_by(session, scenario, &speeds, ChangeMade::of(changes))
+    }
+
+    fn go_by(
+        &self,
+        session: &mut Session,
+        scenario: Scenario,
+        speeds: &[(String, conik_sim::live::GlideSpeed)],
+        made: ChangeMade,
+    ) -> Result<(), String> {
+        let stretch = Stretch::next(&session.first, &scenario, speeds);
+        let stretch = stretch.map_err(|error| error.to_string())?;
+        let scene = Scene::live(&scenario, &self.arm_name, true);
+        session.scene = scene.map_err(|error| error.to_string())?;
+        session.revision += 1;
+        session.from_s = session.t_s;
+        self.helm.hand_over(Box::new(stretch), session.revision);
+        session.present = scenario;
+        session.made.push((session.revision, made));
+        self.send(&session.scene_message(&self.name, false));
+        Ok(())
+    }
+
+    /// What is behind the lock is numbers and text; whoever panicked with it in hand left it no worse.
+    fn session(&self) -> MutexGuard<'_, Session> {
+        self.session.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+impl Session {
+    fn scene_message(&self, name: &str, with_robot: bool) -> String {
+        let without = (!with_robot).then(|| self.scene.without_robot());
+        json(&LiveScene {
+            scene: without.as_ref().unwrap_or(&self.scene),
+            name,
+            revision: self.revision,
+            from_s: self.from_s,
+        })
+    }
+
+    fn ticks_message(&self, ticks: Ticks, reset: bool) -> String {
+        let mut gliding: Vec<Glide> = Vec::new();
+        for it in self.history.gliding() {
+            let name = &self.gliding_names[it.task.index()];
+            // An obstacle of many pairs moves once.
+            if !gliding.iter().any(|known| known.name == *name) {
+                gliding.push(Glide::of(name, it));
+            }
+        }
+        json(&LiveTicks {
+            ticks,
+            reset,
+            gliding,
+        })
+    }
+}
+
+/// The name of each task or, where it keeps an obstacle away, that of the obstacle.
+fn gliding_names(scenario: &Scenario) -> Vec<String> {
+    let obstacles = &scenario.collision.obstacles;
+    let is_obstacle = |name: &String| obstacles.iter().any(|it| it.name == *name);
+    let tasks = scenario.all_tasks().into_iter();
+    tasks
+        .map(|task| {
+            let between = scenario.between(&task).into_iter().flatten();
+            between.into_iter().find(is_obstacle).unwrap_or(task.name)
+        })
+        .collect()
+}
