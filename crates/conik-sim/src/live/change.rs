@@ -161,7 +161,7 @@ impl Scenario {
 /// The first mistake, in a sentence.
 fn first(errors: &ScenarioErrors) -> ChangeError {
     let mistakes = errors.mistakes().iter();
-    let mut sentences = mistakes.map(|mistake| format!("{}: {}", mistake.what, mistake.help));
+    let mut sentences = mistakes.map(|it| format!("{}: {}; {}", it.key, it.what, it.help));
     ChangeError::Scenario(sentences.next().unwrap_or_else(|| errors.to_string()))
 }
 

@@ -49,13 +49,14 @@ pub(in crate::view) async fn attend(live: Arc<Live>, connection: Upgraded) {
         }
         loop {
             let message = tokio::select! {
+                // What a change leads to is told before the answer to it.
                 biased;
-                answer = waiting.recv() => answer.ok_or(End::Gone)?,
                 bundle = bundles.recv() => match bundle {
                     Ok(bundle) => bundle,
                     Err(RecvError::Lagged(_)) => return Err(End::Slow),
                     Err(RecvError::Closed) => return Err(End::Gone),
                 },
+                answer = waiting.recv() => answer.ok_or(End::Gone)?,
             };
             send(&mut sender, Message::Text(message)).await?;
         }
