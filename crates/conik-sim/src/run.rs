@@ -97,7 +97,7 @@ fn drive(
     let rate_hz = stretch.experiment.controller.settings().rate_hz;
     let present = arm.start(rate_hz)?;
     let experiment = &stretch.experiment;
-    let mut way = Way::at(begin_at(&present, &experiment.q0, experiment.from_here)?);
+    let mut way = Way::at(&begin_at(&present, &experiment.q0, experiment.from_here)?);
     let mut pace = Pace::new(helm, arm.is_real_time(), experiment.period_s());
     let mut last_active: Option<ActiveSet> = None;
     let (mut tick, mut missed_cycles) = (0, 0);
@@ -159,10 +159,10 @@ struct Way {
 
 impl Way {
     /// Standing still.
-    fn at(q: JointVec) -> Self {
+    fn at(q: &JointVec) -> Self {
         Self {
-            from: q,
-            to: q,
+            from: *q,
+            to: *q,
             qd: JointVec::zeros(q.len()),
         }
     }

@@ -361,6 +361,7 @@ impl Invention {
             landing: None,
             monitors: Some(self.monitors()),
             step_work_max: StepWork::default(),
+            changes: Vec::new(),
         }
     }
 }

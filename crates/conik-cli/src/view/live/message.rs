@@ -65,7 +65,7 @@ impl Told {
 /// How the run stands.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub(super) struct State {
-    pub(super) running: Running,
+    pub(super) running: Stage,
     pub(super) t_s: f64,
     pub(super) speed: f64,
     pub(super) allowed: Vec<Act>,
@@ -80,7 +80,7 @@ pub(super) struct State {
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
-pub(super) enum Running {
+pub(super) enum Stage {
     Waiting,
     Running,
     Paused,

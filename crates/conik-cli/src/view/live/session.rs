@@ -14,7 +14,7 @@ use tokio_tungstenite::tungstenite::Utf8Bytes;
 
 use super::allowed::{Act, Allowed};
 use super::history::History;
-use super::message::{Asked, Glide, LiveScene, LiveTicks, Request, Running, State, Told, json};
+use super::message::{Asked, Glide, LiveScene, LiveTicks, Request, Stage, State, Told, json};
 use super::state::StepTimes;
 use crate::view::{MOST_ROWS, Recording, Scene, Ticks};
 
@@ -247,10 +247,10 @@ impl Live {
         let allowed = Allowed::with(self.arm, has_ended);
         State {
             running: match () {
-                () if has_ended => Running::Ended,
-                () if !self.helm.has_begun() => Running::Waiting,
-                () if self.helm.is_paused() => Running::Paused,
-                () => Running::Running,
+                () if has_ended => Stage::Ended,
+                () if !self.helm.has_begun() => Stage::Waiting,
+                () if self.helm.is_paused() => Stage::Paused,
+                () => Stage::Running,
             },
             t_s: session.t_s,
             speed: self.helm.speed(),
