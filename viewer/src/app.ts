@@ -5,8 +5,11 @@ import { Clock } from "./clock";
 import { element } from "./element";
 import { FrameTimes } from "./frame_times";
 import { listen } from "./keyboard";
+import { Live } from "./live/live";
+import type { News } from "./live/session";
 import { store, stored } from "./memory";
 import { Pane } from "./pane";
+import { Announcer } from "./panel/announcer";
 import { header, rules } from "./panel/header";
 import { about, Help } from "./panel/help";
 import { Plots } from "./panel/plots";
@@ -25,16 +28,20 @@ export class App {
   private readonly runs: Run[];
   private readonly clock: Clock;
   private readonly panes: Pane[];
-  private readonly transport: Transport;
+  private readonly transport: { element: HTMLElement; update: () => void };
+  private readonly live: Live | null;
   private readonly timeline: Timeline;
   private readonly plots: Plots;
   private readonly frames = new FrameTimes();
   private readonly about: HTMLElement;
-  private readonly said = element("p", { class: "unseen", role: "status" });
+  private readonly announcer = new Announcer();
+  /** Drawings that are older than what is to be seen in them. */
+  private readonly stale = new Set<{ redraw: () => void }>();
   private isTold = false;
   private told_ms = 0;
 
-  constructor(recording: Recording, private readonly root: HTMLElement) {
+  /** `live` is where the run is followed, if it is going on. */
+  constructor(recording: Recording, private readonly root: HTMLElement, live: string | null = null) {
     const colours = new ModeColours();
     this.runs = recording.runs.map((run) => new Run(run, colours));
     const isOne = this.runs.length === 1;
@@ -42,20 +49,29 @@ export class App {
       Math.min(...this.runs.map((run) => run.begin_s)),
       Math.max(...this.runs.map((run) => run.end_s)),
     );
-    this.panes = this.runs.map((run, nth) => new Pane(run, isOne ? null : `${run.name} (${nth === 0 ? "solid" : "dashed"}): ${rules(run.scene)}`));
-    this.transport = new Transport(this.clock, (way) => this.jump(way));
+    this.live = live === null ? null : new Live(live, this.runs[0]!, this.clock, (way) => this.jump(way));
+    const title = (run: Run, nth: number) => (isOne ? null : `${run.name} (${nth === 0 ? "solid" : "dashed"}): ${rules(run.scene)}`);
+    this.panes = this.runs.map((run, nth) => new Pane(run, title(run, nth), this.live?.bench));
+    this.transport = this.live?.transport ?? new Transport(this.clock, (way) => this.jump(way));
     this.timeline = new Timeline(this.runs, this.clock);
     this.plots = new Plots(this.runs, this.clock, () => this.tell());
-    this.about = about(() => this.toggleAbout());
+    this.about = about(() => this.toggleAbout(), this.live?.invitation);
     this.about.hidden = stored(ABOUT_CLOSED) === "yes";
-    const help = new Help(this.frames);
+    const help = new Help(this.frames, this.live !== null);
     root.dataset["runs"] = String(this.runs.length);
+    root.toggleAttribute("data-live", this.live !== null);
     root.replaceChildren(
-      header(this.runs, { about: () => this.toggleAbout(), theme: () => this.changeTheme(), help: () => help.toggle() }),
+      header(
+        this.runs,
+        { about: () => this.toggleAbout(), theme: () => this.changeTheme(), help: () => help.toggle() },
+        this.live && { chips: this.live.status.chips, acts: this.live.acts },
+      ),
+      ...(this.live ? [this.live.status.banner] : []),
       element("main", {}, element("div", { class: "panes" }, ...this.panes.map((pane) => pane.element)), this.about),
       element("footer", {}, element("div", { class: "control" }, this.transport.element, this.timeline.element), this.plots.element),
-      this.said,
+      this.announcer.element,
       help.element,
+      ...(this.live ? [this.live.dialog] : []),
     );
     this.linkCameras();
     this.listen(help);
@@ -64,12 +80,19 @@ export class App {
   /** Begins to show. */
   start(): void {
     document.title = `${this.runs.map((run) => run.title).join(" | ")} – Conik`;
-    this.clock.seek(timeIn(location.hash) ?? this.clock.begin_s);
+    const linked = timeIn(location.hash);
+    if (this.live) this.clock.grow(this.clock.begin_s, this.clock.end_s);
+    if (this.live && linked === null) this.clock.follow();
+    else this.clock.seek(linked ?? this.clock.begin_s);
+    this.live?.open((news) => this.hear(news));
+    this.live?.bench.subscribe(() => this.panes[0]!.refresh());
     const frame = (now_ms: number) => {
       const before = performance.now();
       this.clock.advance(now_ms);
       this.show(now_ms);
-      if (this.clock.playing) this.frames.add(performance.now() - before);
+      this.redrawOne();
+      const heard_ms = this.live?.session.takeBusy() ?? 0;
+      if (this.clock.isMoving) this.frames.add(performance.now() - before + heard_ms);
       requestAnimationFrame(frame);
     };
     requestAnimationFrame(frame);
@@ -81,7 +104,7 @@ export class App {
       pane.show(t_s);
       pane.stage?.draw();
     }
-    if (this.isTold || (this.clock.playing && now_ms - this.told_ms < TELL_EVERY)) return;
+    if (this.isTold || (this.clock.isMoving && now_ms - this.told_ms < TELL_EVERY)) return;
     this.told_ms = now_ms;
     this.tell();
   }
@@ -89,21 +112,58 @@ export class App {
   private tell(): void {
     const { t_s } = this.clock;
     this.isTold = true;
-    for (const pane of this.panes) pane.tell(t_s, this.clock.playing);
+    const { isMoving, live, following } = this.clock;
+    for (const pane of this.panes) pane.tell(t_s, isMoving, !live || following);
     const rows = this.panes.map((pane) => pane.rowAt(t_s));
+    if (following) this.announcer.mode(this.runs[0]!.modeAt(rows[0]!).label, performance.now());
     this.transport.update();
     this.timeline.update(rows[0]!);
     this.plots.update(rows);
   }
 
+  /** Takes in what is new of a run that is going on. */
+  private hear(news: News): void {
+    const run = this.runs[0]!;
+    if (news === "ticks") {
+      this.clock.grow(run.begin_s, run.end_s);
+      this.plots.fill();
+    } else {
+      this.refresh();
+    }
+    // Bounds are drawn too, and when waypoints were reached.
+    if (news === "state" || news === "link") return;
+    for (const drawing of [this.timeline, ...this.plots.drawings]) this.stale.add(drawing);
+  }
+
+  /** Brings what can be done to what may be done now. */
+  private refresh(): void {
+    for (const pane of this.panes) pane.refresh();
+    this.isTold = false;
+  }
+
+  /** One drawing a frame: all of them at once would take longer than a frame may. */
+  private redrawOne(): void {
+    for (const drawing of this.stale) {
+      this.stale.delete(drawing);
+      drawing.redraw();
+      return;
+    }
+  }
+
   private listen(help: Help): void {
-    const { clock } = this;
+    const { clock, live } = this;
     let address: ReturnType<typeof setTimeout> | undefined;
+    let wasFollowing = clock.following;
     clock.subscribe(() => {
       this.isTold = false;
       clearTimeout(address);
       // Browsers refuse an address that changes all the time.
-      if (!clock.playing) address = setTimeout(() => history.replaceState(null, "", hashOf(clock.t_s)), 150);
+      // Now has no address.
+      if (clock.following && location.hash !== "") history.replaceState(null, "", location.pathname + location.search);
+      else if (!clock.isMoving) address = setTimeout(() => history.replaceState(null, "", hashOf(clock.t_s)), 150);
+      if (clock.following === wasFollowing) return;
+      wasFollowing = clock.following;
+      this.refresh();
     });
     window.addEventListener("hashchange", () => {
       const t_s = timeIn(location.hash);
@@ -111,23 +171,35 @@ export class App {
     });
     theme.follow(() => this.repaint());
     listen({
-      toggle: () => clock.toggle(),
+      toggle: () => (live ? live.transport.toggle() : clock.toggle()),
       move: (seconds) => clock.seek(clock.t_s + seconds),
       step: (ticks) => this.step(ticks),
       jump: (way) => this.jump(way),
       toEnd: (way) => clock.seek(way < 0 ? clock.begin_s : clock.end_s),
-      speed: (step) => clock.changeSpeed(step),
+      speed: (step) => (live ? live.transport.changeSpeed(step) : clock.changeSpeed(step)),
+      replay: () => live && !clock.following && clock.toggle(),
+      nudge: (way, isFar) => live?.nudge(this.panes[0]!.stage, way, isFar) ?? false,
       fit: (direction: Direction) => this.panes.forEach((pane) => pane.fit(direction)),
       plots: () => this.root.toggleAttribute("data-no-plots"),
       theme: () => this.changeTheme(),
       about: () => this.toggleAbout(),
-      close: () => this.about.hidden || help.element.open || this.toggleAbout(),
+      close: () => this.letGo() || this.about.hidden || help.element.open || this.toggleAbout(),
       help: () => help.toggle(),
     });
   }
 
+  /** Lets go of what is dragged or selected; whether anything was. */
+  private letGo(): boolean {
+    if (this.panes.some((pane) => pane.stage?.cancel())) return true;
+    const { bench } = this.live ?? {};
+    if (!bench?.name) return false;
+    bench.open(null);
+    return true;
+  }
+
   /** By so many ticks of the first run. */
   private step(ticks: number): void {
+    if (ticks > 0 && this.live?.transport.stepOn()) return;
     const run = this.runs[0]!;
     const row = Math.min(Math.max(run.rowAt(this.clock.t_s) + ticks, 0), run.rows - 1);
     this.clock.pause();
@@ -143,10 +215,12 @@ export class App {
     this.clock.pause();
     this.clock.seek(to);
     const modes = this.runs.map((run) => run.modeAt(run.rowAt(to)).label);
-    this.said.textContent = `${to.toFixed(2)} s: ${modes.join("; ")}`;
+    this.announcer.say(`${to.toFixed(2)} s: ${modes.join("; ")}`);
   }
 
   private toggleAbout(): void {
+    // Keys go to the page again, and not to a button that nobody sees.
+    if (this.about.contains(document.activeElement)) (document.activeElement as HTMLElement).blur();
     this.about.hidden = !this.about.hidden;
     store(ABOUT_CLOSED, this.about.hidden ? "yes" : "no");
   }

@@ -13,8 +13,12 @@ export interface Keys {
   plots: () => void;
   theme: () => void;
   about: () => void;
-  /** Closes what is over the scene. */
+  /** Lets go of what is held, or closes what is over the scene. */
   close: () => void;
+  /** Plays the past of a run that is going on. */
+  replay: () => void;
+  /** Moves what is selected to the right, away or up; whether anything is. */
+  nudge: (way: readonly [number, number, number], isFar: boolean) => boolean;
   help: () => void;
 }
 
@@ -39,11 +43,17 @@ export function listen(keys: Keys): void {
     p: keys.plots,
     t: keys.theme,
     w: keys.about,
+    k: keys.replay,
     Escape: keys.close,
     "?": keys.help,
   };
   window.addEventListener("keydown", (event) => {
-    if (event.ctrlKey || event.metaKey || event.altKey || isTyping(event.target)) return;
+    if (event.ctrlKey || event.metaKey || event.altKey || event.defaultPrevented || isTyping(event.target)) return;
+    const way = WAYS[event.key];
+    if (way && !(event.target instanceof HTMLInputElement) && keys.nudge(way, event.shiftKey)) {
+      event.preventDefault();
+      return;
+    }
     const act = acts[event.key.length === 1 ? event.key.toLowerCase() : event.key];
     if (!act || (event.key === " " && isPressed(event.target))) return;
     // Escape closes the help too, which is the browser's to do.
@@ -51,6 +61,16 @@ export function listen(keys: Keys): void {
     act(event.shiftKey);
   });
 }
+
+/** To the right, away from who looks, and up. */
+const WAYS: Record<string, readonly [number, number, number]> = {
+  ArrowLeft: [-1, 0, 0],
+  ArrowRight: [1, 0, 0],
+  ArrowUp: [0, 1, 0],
+  ArrowDown: [0, -1, 0],
+  PageUp: [0, 0, 1],
+  PageDown: [0, 0, -1],
+};
 
 /** Whether space presses the element that has the focus. */
 function isPressed(target: EventTarget | null): boolean {

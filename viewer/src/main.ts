@@ -2,12 +2,14 @@
 
 import { App } from "./app";
 import { element } from "./element";
-import { load } from "./source";
+import { liveAddress, load } from "./source";
 import { apply } from "./theme";
 import "./style/colours.css";
 import "./style/frame.css";
 import "./style/side.css";
 import "./style/foot.css";
+import "./style/live.css";
+import "./style/edit.css";
 import "./style/over.css";
 import "./style/sizes.css";
 
@@ -15,7 +17,7 @@ apply();
 const root = document.getElementById("page")!;
 root.replaceChildren(element("p", { class: "message", role: "status" }, "Loading the run …"));
 load(document, location)
-  .then((recording) => new App(recording, root).start())
+  .then((recording) => new App(recording, root, liveAddress(recording, location)).start())
   .catch((error: unknown) => {
     const text = error instanceof Error ? error.message : String(error);
     root.replaceChildren(element("p", { class: "message", role: "alert" }, text));

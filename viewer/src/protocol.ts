@@ -32,6 +32,10 @@ export interface Scene {
   title: string | null;
   live: boolean;
   editable: boolean;
+  /** Of a run that is going on: its file's name, how many changes there were, and since when it holds. */
+  name?: string;
+  revision?: number;
+  from_s?: number;
   arm: string;
   rate_hz: number;
   duration_s: number;
@@ -120,6 +124,7 @@ export interface Task extends Motion {
   waypoints_m?: Vector[];
   waypoints_quaternion_wxyz?: Quaternion[];
   acceptance_m?: number;
+  acceptance_rad?: number;
   target_m?: Vector;
   desired_quaternion_wxyz?: Quaternion;
   point_m?: Vector;
@@ -148,8 +153,15 @@ export interface Result {
   ended_at_s: number;
   waypoints_reached_s: (number | null)[];
   properties: Record<string, Property>;
-  step_time_us: { median: number; p99: number; max: number };
+  step_time_us: StepTime;
   deadline_misses: number;
+  monitors?: Record<string, unknown> | null;
+}
+
+export interface StepTime {
+  median: number;
+  p99: number;
+  max: number;
 }
 
 /** What happened, column by column; a row is a tick. */
@@ -164,4 +176,16 @@ export interface Ticks {
   why: number[];
   reasons: string[][];
   columns: Record<string, (number | null)[]>;
+  /** Of a run that is going on: this is all there is, and what came before is to be forgotten. */
+  reset?: boolean;
+  gliding?: Glide[];
+}
+
+/** What to add to where the scene has something, to have where it is: it is on its way. */
+export interface Glide {
+  name: string;
+  away_m?: Vector;
+  away_rad?: Vector;
+  away_min?: number;
+  away_max?: number;
 }

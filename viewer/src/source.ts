@@ -24,7 +24,8 @@ async function fetched(place: Location): Promise<string> {
   if (!place.protocol.startsWith("http")) {
     throw new Error("There is no run in this file. Look at one with: conik view DIR");
   }
-  const answer = await fetch("recording.json").catch(() => null);
+  // The query may hold what lets a page in.
+  const answer = await fetch(`recording.json${place.search}`).catch(() => null);
   if (!answer) throw new Error("The program that serves this page does not answer any more.");
   if (!answer.ok) throw new Error(`The run cannot be had: ${(await answer.text()).trim()}`);
   return answer.text();
@@ -44,4 +45,12 @@ function checked(text: string): Recording {
   }
   if (!recording.runs?.length) throw new Error("There is no run in this recording.");
   return recording;
+}
+
+/** Where a run that is going on is followed, of a page at a place; `null` where there is none. */
+export function liveAddress(recording: Recording, place: Location): string | null {
+  if (!recording.runs[0]?.scene.live || !place.protocol.startsWith("http")) return null;
+  const address = new URL(`live${place.search}`, place.href);
+  address.protocol = place.protocol === "https:" ? "wss:" : "ws:";
+  return address.href;
 }

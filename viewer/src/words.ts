@@ -177,3 +177,10 @@ export function decided(run: Run, row: number): string[] {
     }
   });
 }
+
+/** What another program said, as a sentence. */
+export function sentence(text: string): string {
+  const trimmed = text.trim();
+  const begun = trimmed.charAt(0).toUpperCase() + trimmed.slice(1);
+  return begun === "" || /[.!?]$/.test(begun) ? begun : `${begun}.`;
+}

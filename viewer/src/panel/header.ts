@@ -7,7 +7,14 @@ import type { Run } from "../run";
 const MOON = "M13 10.2A5.6 5.6 0 0 1 5.8 3a5.6 5.6 0 1 0 7.2 7.2z";
 const QUESTION = "M6 6.2a2 2 0 1 1 2.9 1.8c-.6.3-.9.7-.9 1.4M8 11.7v.1";
 
-export function header(runs: Run[], acts: { about: () => void; theme: () => void; help: () => void }): HTMLElement {
+interface Acts {
+  about: () => void;
+  theme: () => void;
+  help: () => void;
+}
+
+/** `live` is what a run that is going on tells of itself, and what can be done with it. */
+export function header(runs: Run[], acts: Acts, live: { chips: HTMLElement[]; acts: HTMLElement[] } | null = null): HTMLElement {
   const run = runs[0]!;
   const { scene } = run;
   const title = runs.length > 1 ? runs.map((run) => run.name).join(" | ") : run.title;
@@ -15,10 +22,12 @@ export function header(runs: Run[], acts: { about: () => void; theme: () => void
     ? [element("span", { class: "chip" }, "two runs, one clock")]
     : [
         element("span", { class: "chip" }, scene.robot.name),
-        element("span", { class: "chip arm" }, `${arm(scene)}, ${scene.rate_hz} Hz${step(scene)}`),
-        element("span", { class: "chip rules", title: "mode rule, border, recursion" }, rules(scene)),
-        ...(run.every > 1 ? [element("span", { class: "chip" }, `every ${run.every}th tick`)] : []),
-        ending(scene),
+        ...(live?.chips ?? [
+          element("span", { class: "chip arm" }, `${arm(scene)}, ${scene.rate_hz} Hz${step(scene)}`),
+          element("span", { class: "chip rules", title: "mode rule, border, recursion" }, rules(scene)),
+          ...(run.every > 1 ? [element("span", { class: "chip" }, `every ${run.every}th tick`)] : []),
+          ending(scene),
+        ]),
       ];
   const open = button("What am I looking at?", element("span", {}, "What am I looking at?"), acts.about, "W");
   open.classList.add("about-open");
@@ -31,6 +40,7 @@ export function header(runs: Run[], acts: { about: () => void; theme: () => void
     element(
       "div",
       { class: "switches" },
+      ...(live?.acts ?? []),
       open,
       button("Light or dark", icon(MOON), acts.theme, "T"),
       button("Keys and help", icon(QUESTION), acts.help, "?"),
@@ -52,7 +62,7 @@ function step({ result }: Scene): string {
 }
 
 /** How the run ended, and whether what must hold did. */
-function ending(scene: Scene): HTMLElement {
+export function ending(scene: Scene): HTMLElement {
   const { result } = scene;
   if (!result) return chip("bad", "cut off", "The program that ran it was killed.");
   const broken = ["inside_stays", "outside_never_worse", "entered_stays"].filter(

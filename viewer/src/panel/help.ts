@@ -10,7 +10,7 @@ const ABOUT =
   "the tool at a point. A set-based task only wants to stay within an interval: 18 cm or more from that, no " +
   "more than 15° away from there. While it is inside, it costs nothing. Only where the rest would push it " +
   "out does it become active: it is held at its border and lights up, and the tasks below get what freedom " +
-  "is left. The coloured strip shows which were active when; press play and watch the arm meet them.";
+  "is left. The coloured strip shows which were active when";
 
 export const KEYS: readonly (readonly [string, string])[] = [
   ["space", "play, pause"],
@@ -26,13 +26,26 @@ export const KEYS: readonly (readonly [string, string])[] = [
   ["?", "this help"],
 ];
 
-/** The explanation, which can be closed. */
-export function about(close: () => void): HTMLElement {
+/** What keys do besides in a run that is going on. */
+const LIVE_KEYS: readonly (readonly [string, string])[] = [
+  ["space", "pause, resume the run; where it may not be paused, hold the view"],
+  [".", "a tick on, while the run is paused"],
+  ["end", "to now"],
+  ["K", "replay the past from here"],
+  ["← → ↑ ↓", "move what is selected left, right, away, nearer; with shift, farther"],
+  ["page↑ page↓", "move it up, down"],
+  ["alt ↑ ↓", "make the task that has the focus more, less important"],
+  ["esc", "let go; what is dragged goes back to where it was"],
+];
+
+/** The explanation, which can be closed; `invitation` says what there is to try. */
+export function about(close: () => void, invitation: HTMLElement | null = null): HTMLElement {
   return element(
     "aside",
     { class: "about", "aria-label": "What am I looking at?" },
     element("div", { class: "line" }, element("h2", {}, "What am I looking at?"), button("Close", icon(CLOSE), close)),
-    element("p", {}, ABOUT),
+    element("p", {}, invitation ? `${ABOUT}.` : `${ABOUT}; press play and watch the arm meet them.`),
+    ...(invitation ? [invitation] : []),
   );
 }
 
@@ -40,8 +53,10 @@ export class Help {
   readonly element = element("dialog", { "aria-label": "Keys and help" });
   private readonly timing = element("p", { class: "soft timing" });
 
-  constructor(private readonly frames: FrameTimes) {
-    const rows = KEYS.map(([keys, does]) => element("tr", {}, element("th", { scope: "row" }, ...caps(keys)), element("td", {}, does)));
+  constructor(private readonly frames: FrameTimes, isLive = false) {
+    const own = (keys: string) => isLive && LIVE_KEYS.some(([others]) => others === keys);
+    const all = [...(isLive ? LIVE_KEYS : []), ...KEYS.filter(([keys]) => !own(keys))];
+    const rows = all.map(([keys, does]) => element("tr", {}, element("th", { scope: "row" }, ...caps(keys)), element("td", {}, does)));
     this.element.append(
       element("div", { class: "line" }, element("h2", {}, "Keys"), button("Close", icon(CLOSE), () => this.element.close())),
       element("table", {}, element("tbody", {}, ...rows)),

@@ -4,7 +4,7 @@
 import { element, mark, say } from "../element";
 import type { Task } from "../protocol";
 import { quantity } from "../quantity";
-import type { Run } from "../run";
+import type { Gliding, Run } from "../run";
 import { inside } from "../words";
 import { TaskRow } from "./task_row";
 
@@ -14,30 +14,53 @@ const LIMIT = "limit/";
 /** Fewer tasks of a kind than this are no group. */
 const FEW = 3;
 
+/** What is added to a row of a run that can be changed. */
+export interface RowTools {
+  /** Brings it to what the scene has now. */
+  update: () => void;
+}
+
 export class Hierarchy {
   readonly element = element("ol", { class: "hierarchy", "aria-label": "Tasks, the most important first" });
-  private readonly parts: (TaskRow | Group)[] = [];
+  private parts: (TaskRow | Group)[] = [];
+  private tools: RowTools[] = [];
+  private tasks: Task[] = [];
   private readonly rows = new Map<Element, TaskRow>();
-
-  /** `point` is told which task somebody points at. */
-  constructor(run: Run, point: (task: string | null) => void) {
-    const { tasks } = run.scene;
-    let number = 0;
-    for (const run_of of grouped(tasks)) {
-      const rows = run_of.tasks.map((task) => new TaskRow(run, task, ++number));
-      for (const row of rows) {
-        this.rows.set(row.element, row);
-        for (const kind of ["pointerenter", "focus"]) row.element.addEventListener(kind, () => point(row.task.name));
-        for (const kind of ["pointerleave", "blur"]) row.element.addEventListener(kind, () => point(null));
-      }
-      const parts = run_of.title ? [new Group(run, run_of.title, rows)] : rows;
-      this.parts.push(...parts);
+  private readonly observer = new IntersectionObserver((changes) => {
+    for (const { target, isIntersecting } of changes) {
+      const row = this.rows.get(target);
+      if (row) row.isSeen = isIntersecting;
     }
-    this.element.append(...this.parts.map((part) => part.element));
-    const observer = new IntersectionObserver((changes) => {
-      for (const { target, isIntersecting } of changes) this.rows.get(target)!.isSeen = isIntersecting;
-    });
-    for (const element of this.rows.keys()) observer.observe(element);
+  });
+
+  /** `point` is told which task somebody points at; `equip` adds to rows what changes them. */
+  constructor(
+    private readonly run: Run,
+    private readonly point_at: (task: string | null) => void,
+    private readonly equip: ((row: TaskRow) => RowTools | null) | null = null,
+  ) {
+    this.take(run.scene.tasks);
+  }
+
+  /** Takes what the tasks are now; rows that stand in the same order stay. */
+  take(tasks: Task[]): void {
+    if (tasks === this.tasks) return;
+    const isOrdered = tasks.length === this.tasks.length && tasks.every((task, nth) => isAlike(task, this.tasks[nth]!));
+    this.tasks = tasks;
+    if (!isOrdered) {
+      this.build();
+      return;
+    }
+    const named = new Map(tasks.map((task) => [task.name, task]));
+    for (const row of this.rows.values()) {
+      const task = named.get(row.task.name)!;
+      if (task !== row.task) row.take(task);
+    }
+  }
+
+  /** Brings what changes the rows to what the scene has now. */
+  updateTools(): void {
+    for (const tools of this.tools) tools.update();
   }
 
   /** Makes the row of a task stand out; `null`: none. */
@@ -46,9 +69,39 @@ export class Hierarchy {
   }
 
   /** Brings the list to a row; in a hurry, only what is on the screen. */
-  update(row: number, isHurried: boolean): void {
-    for (const part of this.parts) part.update(row, isHurried);
+  update(row: number, isHurried: boolean, gliding: Gliding): void {
+    for (const part of this.parts) part.update(row, isHurried, part instanceof TaskRow ? gliding.get(part.task.name) : undefined);
   }
+
+  private build(): void {
+    const focused = this.rows.get(document.activeElement?.closest(".task") ?? document.body)?.task.name;
+    this.observer.disconnect();
+    this.rows.clear();
+    [this.parts, this.tools] = [[], []];
+    let number = 0;
+    for (const run_of of grouped(this.tasks)) {
+      const rows = run_of.tasks.map((task) => new TaskRow(this.run, task, ++number));
+      for (const row of rows) this.add(row);
+      this.parts.push(...(run_of.title ? [new Group(this.run, run_of.title, rows)] : rows));
+    }
+    this.element.replaceChildren(...this.parts.map((part) => part.element));
+    for (const [element, row] of this.rows) {
+      this.observer.observe(element);
+      if (row.task.name === focused) row.element.focus();
+    }
+  }
+
+  private add(row: TaskRow): void {
+    this.rows.set(row.element, row);
+    for (const kind of ["pointerenter", "focus"]) row.element.addEventListener(kind, () => this.point_at(row.task.name));
+    for (const kind of ["pointerleave", "blur"]) row.element.addEventListener(kind, () => this.point_at(null));
+    const tools = this.equip?.(row);
+    if (tools) this.tools.push(tools);
+  }
+}
+
+function isAlike(a: Task, b: Task): boolean {
+  return a.name === b.name && a.role === b.role && a.type === b.type;
 }
 
 /** Tasks of one kind that follow each other. */
@@ -107,8 +160,7 @@ class Group {
 }
 
 function grouped(tasks: Task[]): { title: string | null; tasks: Task[] }[] {
-  const kind = (task: Task) =>
-    task.name.startsWith(LIMIT) ? "joint limits" : task.name === task.between?.join("/") ? "shapes kept apart" : null;
+  const kind = (task: Task) => (task.name.startsWith(LIMIT) ? "joint limits" : isPair(task) ? "shapes kept apart" : null);
   const groups: { title: string | null; tasks: Task[] }[] = [];
   for (const task of tasks) {
     const title = kind(task);
@@ -120,4 +172,14 @@ function grouped(tasks: Task[]): { title: string | null; tasks: Task[] }[] {
     title: group.title && group.tasks.length >= FEW ? `${group.tasks.length} ${group.title}` : null,
     tasks: group.tasks,
   }));
+}
+
+/** Whether a task is what a shape became that is kept away from something. */
+function isPair(task: Task): boolean {
+  return task.name === task.between?.join("/");
+}
+
+/** Whether a task is one of the scenario's list, and not what joints and shapes became. */
+export function isListed(task: Task): boolean {
+  return !task.name.startsWith(LIMIT) && !isPair(task);
 }

@@ -26,10 +26,12 @@ class JointRow {
   private readonly bar: Bar;
   private readonly speed = element("i", { class: "speed" });
   private readonly unit: string;
+  private readonly limits: [number | null, number | null];
 
   constructor(private readonly run: Run, private readonly joint: Joint, private readonly number: number) {
     this.unit = joint.kind === "revolute" ? "rad" : "m";
-    const [min, max] = joint.position_limits ?? [null, null];
+    this.limits = joint.position_limits ?? [null, null];
+    const [min, max] = this.limits;
     // Without limits the bar is what the joint did, or a turn.
     const seen = run.range(`q${number + 1}_rad`);
     const around: [number, number] = joint.kind === "revolute" ? [Math.min(-Math.PI, seen[0]), Math.max(Math.PI, seen[1])] : seen;
@@ -51,6 +53,8 @@ class JointRow {
   update(row: number): void {
     const q = this.run.q(this.number, row);
     say(this.value, quantity(q, this.unit));
+    // A joint of a run that is going on may come to where it never was.
+    if (!this.bar.has(q)) this.bar.scale(...ends(this.run.range(`q${this.number + 1}_rad`), this.limits), ...this.limits);
     this.bar.set(q);
     const limit = `limit/${this.joint.name}`;
     mark(this.element, "data-state", this.run.modeAt(row).active.has(limit) ? "held" : "inside");

@@ -34,7 +34,7 @@ export class Plot {
   ) {
     const { title, unit } = quantity;
     this.canvas = new Canvas((pen, width, height) => this.draw(pen, width, height), INSET, `${title} over time`);
-    this.canvas.onDrag((share) => clock.seek(clock.begin_s + share * (clock.end_s - clock.begin_s)));
+    this.canvas.onDrag((share) => clock.seek(clock.begin_s + share * (clock.horizon_s - clock.begin_s)));
     const shown = unit === "-" ? "" : unit.replace("rad", "°");
     const name = element("h3", {}, title, ...(shown ? [element("small", {}, ` [${shown}]`)] : []));
     const close = button(`Remove the plot of ${title}`, icon("M4 4l8 8M12 4l-8 8"), remove);
@@ -42,8 +42,8 @@ export class Plot {
   }
 
   update(rows: number[]): void {
-    const { begin_s, end_s, t_s } = this.clock;
-    this.canvas.setCursor((t_s - begin_s) / (end_s - begin_s || 1));
+    const { begin_s, horizon_s, t_s } = this.clock;
+    this.canvas.setCursor((t_s - begin_s) / (horizon_s - begin_s || 1));
     const values = this.runs.map((run, nth) => quantity(run.at(this.quantity.column, rows[nth]!), this.quantity.unit));
     say(this.value, values.join(" | "));
   }
@@ -53,8 +53,10 @@ export class Plot {
   }
 
   private draw(pen: CanvasRenderingContext2D, width: number, height: number): void {
-    const { begin_s, end_s } = this.clock;
-    const { column, task } = this.quantity;
+    const { begin_s, horizon_s: end_s } = this.clock;
+    const { column } = this.quantity;
+    // A bound may have been changed since.
+    const task = this.runs[0]!.scene.tasks.find(({ name }) => name === this.quantity.task?.name) ?? this.quantity.task;
     const scale = this.quantity.unit.startsWith("rad") ? 180 / Math.PI : 1;
     const bounds = task && isSet(task) ? [task.min ?? null, task.max ?? null] : [null, null];
     const [low, high] = this.range(bounds);
@@ -116,7 +118,7 @@ export class Plot {
     y: (value: number) => number,
     height: number,
   ): void {
-    const { begin_s, end_s } = this.clock;
+    const { begin_s, horizon_s: end_s } = this.clock;
     const [from, to] = [x(begin_s), x(end_s)];
     const inside = (at: number) => Math.min(height - BOTTOM, Math.max(TOP, at));
     bounds.forEach((bound, side) => {

@@ -4,6 +4,7 @@ import type { Clock } from "../clock";
 import { element } from "../element";
 import type { Run } from "../run";
 import { isSet } from "../words";
+import { isListed } from "./hierarchy";
 import { Plot, type Quantity } from "./plot";
 
 /** Plots to begin with. */
@@ -13,30 +14,41 @@ export class Plots {
   readonly element: HTMLElement;
   private readonly grid = element("div", { class: "plot-grid" });
   private readonly choice = element("select", { "aria-label": "Add a plot" });
-  private readonly all: Map<string, { group: string; quantity: Quantity }>;
+  private all = new Map<string, { group: string; quantity: Quantity }>();
   private plots: Plot[] = [];
 
   constructor(private readonly runs: Run[], private readonly clock: Clock, private readonly refresh: () => void) {
-    this.all = quantities(runs[0]!);
+    this.choice.addEventListener("change", () => {
+      this.add(this.choice.value);
+      this.choice.value = "";
+      this.refresh();
+    });
+    this.fill();
+    this.element = element("section", { class: "plots", "aria-label": "Plots" }, this.grid, this.choice);
+  }
+
+  /** Offers the columns that there are, and begins with some if nothing is plotted. */
+  fill(): void {
+    if (this.all.size > 0 && this.all.size === quantities(this.runs[0]!).size) return;
+    this.all = quantities(this.runs[0]!);
     const groups = new Map<string, HTMLOptGroupElement>();
-    this.choice.append(element("option", { value: "" }, "Add a plot …"));
+    this.choice.replaceChildren(element("option", { value: "" }, "Add a plot …"));
     for (const [column, { group, quantity }] of this.all) {
       const list = groups.get(group) ?? element("optgroup", { label: group });
       groups.set(group, list);
       list.append(element("option", { value: column }, quantity.title));
     }
     this.choice.append(...groups.values());
-    this.choice.addEventListener("change", () => {
-      this.add(this.choice.value);
-      this.choice.value = "";
-      this.refresh();
-    });
-    for (const column of first(runs[0]!)) this.add(column);
-    this.element = element("section", { class: "plots", "aria-label": "Plots" }, this.grid, this.choice);
+    if (this.plots.length === 0) for (const column of first(this.runs[0]!)) this.add(column);
   }
 
   update(rows: number[]): void {
     for (const plot of this.plots) plot.update(rows);
+  }
+
+  /** Those there are, each of which can be drawn by itself. */
+  get drawings(): readonly { redraw: () => void }[] {
+    return this.plots;
   }
 
   redraw(): void {
@@ -65,7 +77,9 @@ function first(run: Run): string[] {
     .slice(0, FIRST - 1)
     .map((task) => task.value!);
   const errors = run.scene.tasks.flatMap((task) => (task.error !== null ? [task.error] : []));
-  const rest = run.scene.tasks.flatMap((task) => (isSet(task) && task.value !== null ? [task.value] : []));
+  // What somebody wrote down says more than what joints and shapes became.
+  const tasks = [...run.scene.tasks.filter(isListed), ...run.scene.tasks.filter((task) => !isListed(task))];
+  const rest = tasks.flatMap((task) => (isSet(task) && task.value !== null ? [task.value] : []));
   return [...new Set([...sets, ...errors, ...rest])].slice(0, FIRST);
 }
 

@@ -17,24 +17,27 @@ export class Timeline {
   readonly element: HTMLElement;
   private readonly canvas: Canvas;
   private readonly range: HTMLInputElement;
+  private readonly legend = element("div", { class: "legend" });
+  private named = -1;
 
   constructor(private readonly runs: Run[], private readonly clock: Clock) {
     this.canvas = new Canvas((pen, width, height) => this.draw(pen, width, height), INSET, "Modes over time");
     this.canvas.element.style.height = `${runs.length * (STRIP + GAP) + FOOT}px`;
-    this.canvas.onDrag((share) => clock.seek(clock.begin_s + share * (clock.end_s - clock.begin_s)));
+    this.canvas.onDrag((share) => clock.seek(clock.begin_s + share * (clock.horizon_s - clock.begin_s)));
     this.range = element("input", {
       type: "range", min: "0", max: "1000", step: "1", class: "scrub", "aria-label": "Time",
     });
     this.range.addEventListener("input", () => {
-      clock.seek(clock.begin_s + (Number(this.range.value) / 1000) * (clock.end_s - clock.begin_s));
+      clock.seek(clock.begin_s + (Number(this.range.value) / 1000) * (clock.horizon_s - clock.begin_s));
     });
     this.canvas.element.append(this.range);
-    this.element = element("div", { class: "timeline" }, this.canvas.element, this.legend());
+    this.element = element("div", { class: "timeline" }, this.canvas.element, this.legend);
+    this.name();
   }
 
   update(row: number): void {
-    const { begin_s, end_s, t_s } = this.clock;
-    const share = (t_s - begin_s) / (end_s - begin_s || 1);
+    const { begin_s, horizon_s, t_s } = this.clock;
+    const share = (t_s - begin_s) / (horizon_s - begin_s || 1);
     this.canvas.setCursor(share);
     const value = String(Math.round(share * 1000));
     if (this.range.value !== value) this.range.value = value;
@@ -43,11 +46,16 @@ export class Timeline {
   }
 
   redraw(): void {
+    this.name();
     this.canvas.redraw();
   }
 
   /** Names of the modes, in their colours; each leads to when it is next in force. */
-  private legend(): HTMLElement {
+  private name(): void {
+    // There is another mode only where there is another span.
+    const seen = this.runs.reduce((sum, run) => sum + run.spans.length, 0);
+    if (seen === this.named) return;
+    this.named = seen;
     const modes = new Map<string, Mode>();
     for (const run of this.runs) {
       for (const { mode } of run.spans) if (mode.colour) modes.set(mode.label, mode);
@@ -63,7 +71,7 @@ export class Timeline {
     const none = modes.size === 0 ? [element("span", { class: "soft" }, "no set was ever active")] : [];
     const hasReached = this.runs.some((run) => run.scene.result?.waypoints_reached_s.some((t_s) => t_s !== null));
     const marks = hasReached ? [element("span", { class: "soft mark" }, "▾ waypoint reached")] : [];
-    return element("div", { class: "legend" }, ...named, ...rest, ...none, ...marks);
+    this.legend.replaceChildren(...named, ...rest, ...none, ...marks);
   }
 
   private next(mode: Mode): void {
@@ -77,7 +85,7 @@ export class Timeline {
   }
 
   private draw(pen: CanvasRenderingContext2D, width: number, height: number): void {
-    const { begin_s, end_s } = this.clock;
+    const { begin_s, horizon_s: end_s } = this.clock;
     const [left, right] = INSET;
     const x = (t_s: number) => left + ((t_s - begin_s) / (end_s - begin_s || 1)) * (width - left - right);
     const quiet = style("--track"), soft = style("--soft"), ink = style("--ink");

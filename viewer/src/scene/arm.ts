@@ -48,6 +48,16 @@ export class Arm {
     this.ring.color.set(ring);
   }
 
+  /** Makes it something that is seen through and throws no shadow. */
+  fade(opacity: number): void {
+    for (const material of [this.limb, this.housing, this.ring]) {
+      material.transparent = true;
+      material.opacity = opacity;
+      material.depthWrite = false;
+    }
+    this.object.traverse((part) => (part.castShadow = part.receiveShadow = false));
+  }
+
   update(kinematics: Kinematics): void {
     this.groups.forEach((group, body) => place(group, kinematics.bodies[body]!));
   }

@@ -5,6 +5,7 @@ import { Kinematics } from "../kinematics";
 import type { Run } from "../run";
 import { railEnds } from "./arm";
 import { origin } from "./pose";
+import { goalsOf } from "./waypoints";
 
 /** What a scene is sized and framed by. */
 export interface Extent {
@@ -29,7 +30,7 @@ export function extent(run: Run, solid: Vector3[]): Extent {
   const path: Vector3[] = [];
   const reach = Math.max(0.2, length(run, kinematics));
   for (let moment = 0; moment <= MOMENTS; moment++) {
-    const row = Math.round((moment / MOMENTS) * (run.rows - 1));
+    const row = Math.round((moment / MOMENTS) * Math.max(0, run.rows - 1));
     kinematics.update((joint) => run.q(joint, row));
     for (const body of kinematics.bodies.slice(1)) points.push(origin(body));
     path.push(origin(kinematics.tool));
@@ -38,7 +39,7 @@ export function extent(run: Run, solid: Vector3[]): Extent {
   for (const body of run.scene.robot.bodies) {
     if (body.parent === 0 && body.kind === "prismatic") points.push(...railEnds(run.scene.robot, body, reach));
   }
-  const all = [...points, ...path, ...solid.filter((point) => point.length() < 4 * reach)];
+  const all = [...points, ...path, ...goals(run), ...solid.filter((point) => point.length() < 4 * reach)];
   const low = new Vector3(Infinity, Infinity, Infinity);
   const high = low.clone().negate();
   for (const point of all) {
@@ -49,6 +50,12 @@ export function extent(run: Run, solid: Vector3[]): Extent {
   const radius = Math.max(0.3 * reach, ...all.map((point) => point.distanceTo(middle)));
   const floor = ground(run) ?? Math.floor(Math.min(0, low.z - 0.02 * reach) / 0.05) * 0.05;
   return { reach, middle, radius, floor, path };
+}
+
+/** Points that a run has not come to yet. */
+function goals(run: Run): Vector3[] {
+  if (!run.scene.live) return [];
+  return run.scene.tasks.filter((task) => !task.relative_to).flatMap(goalsOf).map((goal) => new Vector3(...goal));
 }
 
 /** Directions in which something is looked at, and a view cone reaches. */

@@ -23,3 +23,18 @@ export function directionAt(start: Vector, motion: Motion, t_s: number): Vector3
   const angle = axis.length() * moved_s(motion, t_s);
   return angle === 0 ? direction : direction.applyAxisAngle(axis.normalize(), angle);
 }
+
+/** What is at a place, or points in a direction, at the start, at a time. */
+export function nowOf(start: Vector, motion: Motion, isDirection: boolean, t_s: number): Vector {
+  if (isDirection) return directionAt(start, motion, t_s).toArray();
+  return shiftAt(motion, t_s, new Vector3()).add(new Vector3(...start)).toArray();
+}
+
+/** Where something is at the start that is at a place, or points in a direction, at a time. */
+export function startOf(now: Vector, motion: Motion, isDirection: boolean, t_s: number): Vector {
+  if (!isDirection) return new Vector3(...now).sub(shiftAt(motion, t_s, new Vector3())).toArray();
+  const { angular_velocity_rad_per_s: turning, ...rest } = motion;
+  if (!turning) return now;
+  const back = { ...rest, angular_velocity_rad_per_s: [-turning[0], -turning[1], -turning[2]] as const };
+  return directionAt(now, back, t_s).toArray();
+}

@@ -1,182 +1,150 @@
-// What the sets keep to, seen in space: obstacles, regions around points, shapes on links, planes. They
-// light up while their task is active.
+// What the sets keep to, seen in space. It lights up while its task is active, and is drawn where it is
+// while it is on its way to where it shall be.
 
-import { BufferGeometry, EdgesGeometry, Group, LineSegments, Mesh, Object3D, Raycaster, Vector3 } from "three";
-import type { Geometry, Motion, Obstacle, LinkShape, Task } from "../protocol";
-import type { Run } from "../run";
-import { isSet } from "../words";
+import { BufferGeometry, EdgesGeometry, Group, LineSegments, Mesh, Raycaster, Vector3 } from "three";
+import type { Glide, Scene } from "../protocol";
+import type { Gliding } from "../run";
 import type { Frames } from "./frames";
-import { corners, geometryOf, plane, point, sphere } from "./geometry";
-import { Glasses, type Kind } from "./glass";
+import { geometryOf, point, sphere } from "./geometry";
+import { Glasses } from "./glass";
 import type { Look } from "./look";
 import { shiftAt } from "./motion";
-import { type Cell, cells } from "./workspace";
+import { type Part, parts } from "./parts";
 
 /** Edges flatter than this are none [deg]. */
 const EDGE = 25;
-/** A square of a plane, as a share of the reach. */
+/** Squares of planes, as shares of the reach: of obstacles, and of bounds. */
 const PLANE = 2.2;
+const SMALL_PLANE = 1.76;
 
-/** One thing that is seen through. */
 interface Region {
-  /** Names of the tasks that it shows. */
-  tasks: string[];
-  /** What it is called in the scene. */
-  label: string;
-  kind: Kind;
+  part: Part;
   mesh: Mesh;
   edges: LineSegments | null;
-  object: Object3D;
+  object: Group;
   /** Where its label is, in the object's frame. */
   middle: Vector3;
-  motion: Motion | null;
-  isThin: boolean;
+  /** Whether it is anywhere else than where the scene has it. */
+  isAway: boolean;
 }
 
 export class Regions {
-  private readonly regions: Region[] = [];
+  private regions: Region[] = [];
   private readonly glasses = new Glasses();
   /** Of radius 1, for all balls. */
   private readonly ball = sphere(1);
+  private readonly shift = new Vector3();
 
-  constructor(run: Run, frames: Frames, reach: number) {
-    const { scene } = run;
-    const tasks = scene.tasks;
-    const pairs = (name: string) =>
-      tasks.filter((task) => task.between?.includes(name)).map((task) => task.name);
-    for (const obstacle of scene.obstacles) this.addObstacle(obstacle, pairs(obstacle.name), frames, reach);
-    for (const shape of scene.shapes) this.addLinkShape(shape, pairs(shape.name), frames, reach);
-    const boxes = cells(tasks);
-    for (const box of boxes) this.addCell(box, frames);
-    const sides = new Set(boxes.flatMap((box) => box.sides));
-    for (const task of tasks.filter(isSet)) if (!sides.has(task)) this.addTask(task, frames, reach);
-  }
+  constructor(private readonly frames: Frames, private readonly reach: number) {}
 
-  /** Points by which everything that stands still is seen whole. */
-  static corners(run: Run): Vector3[] {
-    const regions = run.scene.tasks.flatMap((task) => {
-      if (task.relative_to || !task.point_m) return [];
-      // A greatest distance may reach beyond everything.
-      return corners({ type: "sphere", center_m: task.point_m, radius_m: task.min ?? 0 });
+  /** Takes a scene. What has not changed in it stays. */
+  take(scene: Scene): void {
+    const known = new Map(this.regions.map((region) => [region.part.key, region]));
+    this.regions = parts(scene).map((part) => {
+      const region = known.get(part.key);
+      if (!region || !isSame(region.part, part)) return this.made(part);
+      known.delete(part.key);
+      return region;
     });
-    const boxes = cells(run.scene.tasks).filter(({ sides }) => !sides[0]!.relative_to);
-    const shapes = [...run.scene.obstacles, ...boxes.map((box) => ({ type: "box" as const, ...box }))];
-    return [...regions, ...shapes.flatMap(corners)];
+    for (const region of known.values()) this.drop(region);
   }
 
   /** Colours for the sets that are active; `chosen` is a task that somebody points at. */
   light(active: ReadonlySet<string>, colour: string | null, chosen: string | null, look: Look): void {
-    for (const region of this.regions) {
-      const isLit = region.tasks.some((task) => active.has(task));
-      const isChosen = chosen !== null && region.tasks.includes(chosen);
-      const state = isLit ? "lit" : isChosen ? "chosen" : region.isThin ? "thin" : "rest";
-      region.mesh.material = this.glasses.glass(region.kind, state);
-      if (region.edges) region.edges.material = this.glasses.edge(state);
+    for (const { part, mesh, edges } of this.regions) {
+      const isLit = part.tasks.some((task) => active.has(task));
+      const isChosen = chosen !== null && (part.tasks.includes(chosen) || part.label === chosen);
+      const state = isLit ? "lit" : isChosen ? "chosen" : part.isThin ? "thin" : "rest";
+      mesh.material = this.glasses.glass(part.kind, state);
+      if (edges) edges.material = this.glasses.edge(state);
     }
     this.glasses.paint(look.glass, colour ?? look.glass, look.accent);
   }
 
   /** The task whose region a ray meets first: of several the one that is active. Planes are behind everything. */
   pick(ray: Raycaster, active: ReadonlySet<string>): string | null {
-    const solid = this.regions.filter(({ kind, tasks }) => kind === "solid" && tasks.length > 0);
-    const hit = ray.intersectObjects(solid.map(({ mesh }) => mesh), false)[0];
-    const tasks = solid.find(({ mesh }) => mesh === hit?.object)?.tasks ?? [];
+    const { tasks } = this.hit(ray, (part) => part.tasks.length > 0)?.part ?? { tasks: [] };
     return tasks.find((task) => active.has(task)) ?? tasks[0] ?? null;
+  }
+
+  /** The body that a ray meets first of those that are wanted, and how far away. */
+  hit(ray: Raycaster, isWanted: (part: Part) => boolean): { part: Part; distance: number } | null {
+    const solid = this.regions.filter(({ part }) => part.kind === "solid" && isWanted(part));
+    const hit = ray.intersectObjects(solid.map(({ mesh }) => mesh), false)[0];
+    const region = solid.find(({ mesh }) => mesh === hit?.object);
+    return hit && region ? { part: region.part, distance: hit.distance } : null;
   }
 
   /** What is called by its name: what is active, and what somebody points at. */
   labels(active: ReadonlySet<string>, chosen: string | null): { text: string; at: Vector3 }[] {
     return this.regions
-      .filter(({ tasks }) => tasks.some((task) => active.has(task) || task === chosen))
-      .map(({ label, object, middle }) => ({ text: label, at: object.localToWorld(middle.clone()) }));
+      .filter(({ part }) => part.label === chosen || part.tasks.some((task) => active.has(task) || task === chosen))
+      .map(({ part, object, middle }) => ({ text: part.label, at: object.localToWorld(middle.clone()) }));
   }
 
-  /** Brings what moves to where it is at a time. */
-  update(t_s: number): void {
-    for (const { motion, object } of this.regions) {
-      if (motion?.velocity_m_per_s) shiftAt(motion, t_s, object.position);
+  /** Brings what moves, and what is on its way, to where it is at a time. */
+  update(t_s: number, gliding: Gliding): void {
+    for (const region of this.regions) {
+      const { part, object } = region;
+      // A shape of the robot may be called as a task is.
+      const glide = part.key.startsWith("shape ") ? undefined : gliding.get(part.label);
+      const isAway = glide !== undefined || part.motion?.velocity_m_per_s !== undefined;
+      if (!isAway && !region.isAway) continue;
+      region.isAway = isAway;
+      if (part.motion) shiftAt(part.motion, t_s, object.position);
+      else object.position.set(0, 0, 0);
+      if (glide?.away_m) object.position.add(this.shift.set(...glide.away_m));
+      this.widen(region, glide);
+      object.updateMatrix();
+      object.matrixWorldNeedsUpdate = true;
     }
   }
 
-  private addObstacle(obstacle: Obstacle, tasks: string[], frames: Frames, reach: number): void {
-    const geometry = this.geometry(obstacle, reach);
-    const isThin = obstacle.type === "half_space";
-    this.add(frames.group(undefined), geometry, { tasks, label: obstacle.name, motion: obstacle, isThin, shape: obstacle, kind: isThin ? "sheet" : "solid" });
+  /** Brings what a bound makes larger, or moves, to where the bound is. */
+  private widen({ part, mesh, object }: Region, glide: Glide | undefined): void {
+    if (!part.bound) return;
+    const away = glide?.[`away_${part.bound}`] ?? 0;
+    if (part.along) object.position.addScaledVector(this.shift.set(...part.along), away);
+    if (part.shape.type !== "sphere") return;
+    mesh.scale.setScalar(Math.max(1e-4, part.shape.radius_m + away));
+    mesh.updateMatrix();
   }
 
-  private addLinkShape(shape: LinkShape, tasks: string[], frames: Frames, reach: number): void {
-    const geometry = this.geometry(shape, reach);
-    this.add(frames.group(shape.link), geometry, { tasks, label: shape.name, motion: null, isThin: true, shape, kind: "solid" });
-  }
-
-  private addCell({ name, sides, center_m, size_m }: Cell, frames: Frames): void {
-    const shape = { type: "box", center_m, size_m } as const;
-    const tasks = sides.map((side) => side.name);
-    const facts = { tasks, label: name, motion: null, isThin: true, shape, kind: "cell" } as const;
-    this.add(frames.group(sides[0]!.relative_to), geometryOf(shape, 0), facts);
-  }
-
-  private addTask(task: Task, frames: Frames, reach: number): void {
-    const group = frames.group(task.relative_to);
-    const label = task.name;
-    const motion = task.velocity_m_per_s ? task : null;
-    const bounds = [task.min, task.max].filter((bound) => typeof bound === "number");
-    if (task.type === "distance" && task.point_m) {
-      for (const bound of bounds.filter((radius) => radius > 0)) {
-        const shape = { type: "sphere", center_m: task.point_m, radius_m: bound } as const;
-        const isThin = bound === task.max;
-        this.add(group, this.ball, { tasks: [label], label, motion, isThin, shape, kind: isThin ? "shell" : "solid" });
-      }
-    }
-    const normal = normalOf(task);
-    if (!normal) return;
-    for (const bound of bounds) {
-      const at = normal.clone().multiplyScalar((task.offset_m ?? 0) + bound);
-      const geometry = plane(at, normal, 0.8 * PLANE * reach);
-      this.add(group, geometry, { tasks: [label], label, motion: null, isThin: true, shape: null, kind: "sheet" });
-    }
-  }
-
-  private geometry(shape: Geometry, reach: number): BufferGeometry {
-    return shape.type === "sphere" ? this.ball : geometryOf(shape, PLANE * reach);
-  }
-
-  private add(
-    group: Group,
-    geometry: BufferGeometry,
-    { shape, ...facts }: Omit<Region, "mesh" | "edges" | "object" | "middle"> & { shape: Geometry | null },
-  ): void {
+  private made(part: Part): Region {
+    const { shape, kind } = part;
+    const size = (part.along ? SMALL_PLANE : PLANE) * this.reach;
+    const geometry = shape.type === "sphere" ? this.ball : geometryOf(shape, size);
     const mesh = new Mesh(geometry);
     const object = new Group();
     object.add(mesh);
     let edges: LineSegments | null = null;
-    if (!shape || facts.kind === "sheet" || shape.type === "box" || shape.type === "cylinder") {
+    if (kind === "sheet" || shape.type === "box" || shape.type === "cylinder") {
       edges = new LineSegments(new EdgesGeometry(geometry, EDGE));
       object.add(edges);
     }
     geometry.computeBoundingSphere();
     const middle = geometry.boundingSphere?.center.clone() ?? new Vector3();
-    if (shape?.type === "sphere") {
+    if (shape.type === "sphere") {
       middle.copy(point(shape.center_m));
       mesh.position.copy(middle);
       mesh.scale.setScalar(shape.radius_m);
     }
-    // What moves by itself moves as a whole; nothing in it does.
-    for (const part of object.children) {
-      part.updateMatrix();
-      part.matrixAutoUpdate = false;
+    // What moves moves as a whole; nothing in it does.
+    for (const each of [object, ...object.children]) {
+      each.updateMatrix();
+      each.matrixAutoUpdate = false;
     }
-    if (!facts.motion?.velocity_m_per_s) object.matrixAutoUpdate = false;
-    group.add(object);
-    this.regions.push({ ...facts, mesh, edges, object, middle });
+    this.frames.group(part.frame).add(object);
+    return { part, mesh, edges, object, middle, isAway: false };
+  }
+
+  private drop({ mesh, edges, object }: Region): void {
+    object.removeFromParent();
+    if (mesh.geometry !== (this.ball as BufferGeometry)) mesh.geometry.dispose();
+    edges?.geometry.dispose();
   }
 }
 
-/** Which way a task counts along a line in space, if it does. */
-function normalOf(task: Task): Vector3 | null {
-  if (task.type === "plane" && task.normal) return point(task.normal).normalize();
-  if (task.type === "height") return new Vector3(0, 0, 1);
-  if (task.type !== "coordinate") return null;
-  const axis = ["x", "y", "z"].indexOf(String(task.axis));
-  return axis < 0 ? null : new Vector3().setComponent(axis, 1);
+function isSame(a: Part, b: Part): boolean {
+  return a.from.length === b.from.length && a.from.every((thing, nth) => thing === b.from[nth]);
 }

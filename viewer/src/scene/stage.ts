@@ -6,12 +6,19 @@ import {
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import { element } from "../element";
 import { Kinematics } from "../kinematics";
+import type { Scene as Facts } from "../protocol";
 import type { Run } from "../run";
 import { Arm } from "./arm";
 import { Frames } from "./frames";
 import { extent, type Extent } from "./extent";
+import { Labels } from "./labels";
 import { type Look, look } from "./look";
+import { Measured } from "./measured";
+import { type Bench, Mover } from "./mover";
+import { solidCorners } from "./parts";
 import { Path } from "./path";
+import { Places } from "./places";
+import { Pointer } from "./pointer";
 import { Regions } from "./regions";
 import { Room, triad } from "./room";
 import { Views } from "./views";
@@ -40,16 +47,24 @@ export class Stage {
   private readonly kinematics: Kinematics;
   private readonly extent: Extent;
   private readonly arm: Arm;
+  private readonly measured: Measured;
   private readonly frames: Frames;
   private readonly regions: Regions;
   private readonly views: Views;
   private readonly path: Path;
   private readonly waypoints: Waypoints;
   private readonly room: Room;
-  private readonly labels = element("div", { class: "labels", "aria-hidden": "true" });
+  /** Where there is something to move. */
+  private readonly mover: Mover | null = null;
+  private readonly pointer: Pointer | null = null;
+  private readonly labels = new Labels();
   private look: Look = look();
   private row = -1;
   private t_s = 0;
+  /** The scene that is drawn, the newest one, and of which rows. */
+  private shown: Facts | null = null;
+  private newest: Facts | null = null;
+  private generation = -1;
   private chosen: string | null = null;
   /** Where a pointer has gone to since the last frame, from -1 to 1. */
   private pointed: Vector2 | null = null;
@@ -58,31 +73,32 @@ export class Stage {
   private isPainted = false;
   private hasMoved = false;
 
-  /** Throws where there is no WebGL. */
-  constructor(private readonly run: Run) {
+  /** Throws where there is no WebGL. `bench` takes what hands do in the scene, where they may. */
+  constructor(private readonly run: Run, bench: Bench | null = null) {
     this.renderer = new WebGLRenderer({ antialias: true });
     this.renderer.shadowMap.enabled = true;
     this.renderer.shadowMap.type = PCFShadowMap;
     this.camera.up.set(0, 0, 1);
     this.kinematics = new Kinematics(run.scene.robot);
-    this.extent = extent(run, Regions.corners(run));
+    this.extent = extent(run, solidCorners(run.scene));
     const { reach, floor } = this.extent;
     this.frames = new Frames(run.scene.robot, this.kinematics);
     this.arm = new Arm(run.scene.robot, reach, floor);
-    this.regions = new Regions(run, this.frames, reach);
-    this.views = new Views(run, this.frames, reach);
+    this.measured = new Measured(run, reach, floor);
+    this.regions = new Regions(this.frames, reach);
+    this.views = new Views(this.frames, reach);
     this.path = new Path(run);
     this.waypoints = new Waypoints(run, this.frames, reach);
     this.room = new Room(this.extent);
     this.frames.tool.add(triad(0.14 * reach));
     const parts: Object3D[] = [
       this.arm.object, this.frames.object, this.views.object, this.path.object,
-      this.room.object, triad(0.09 * reach),
+      this.room.object, this.measured.object, triad(0.09 * reach),
     ];
     this.scene.add(...parts);
     const canvas = this.renderer.domElement;
     canvas.setAttribute("role", "img");
-    this.element = element("div", { class: "stage" }, canvas, this.labels);
+    this.element = element("div", { class: "stage" }, canvas, this.labels.element);
     this.controls = new OrbitControls(this.camera, canvas);
     this.controls.enableDamping = false;
     this.controls.addEventListener("change", () => (this.isDirty = true));
@@ -92,12 +108,22 @@ export class Stage {
     // Nobody points beyond the edge.
     canvas.addEventListener("pointerleave", () => (this.pointed = new Vector2(9, 9)));
     new ResizeObserver(() => this.resize()).observe(this.element);
+    if (bench) {
+      const places = new Places(this.frames, this.views.length);
+      this.mover = new Mover(run, bench, places, this.regions, this.camera, reach);
+      this.pointer = new Pointer(this.element, canvas, this.mover, bench, this.controls, () => (this.isDirty = true));
+      this.scene.add(this.mover.object);
+      this.element.append(this.pointer.tip);
+      canvas.tabIndex = 0;
+    }
     this.paint();
   }
 
   /** Brings everything to a row. */
   show(row: number, t_s: number): void {
-    if (row === this.row && t_s === this.t_s) return;
+    this.take(t_s);
+    if (row === this.row && t_s === this.t_s && this.run.generation === this.generation) return;
+    this.generation = this.run.generation;
     const mode = this.run.modeAt(row);
     if (this.row < 0 || mode !== this.run.modeAt(this.row) || this.waypoint(row) !== this.waypoint(this.row)) {
       this.isPainted = false;
@@ -113,12 +139,15 @@ export class Stage {
     if (!this.isDirty || this.row < 0) return;
     this.isDirty = false;
     this.kinematics.update((joint) => this.run.q(joint, this.row));
+    const gliding = this.run.glidingAt(this.t_s);
     this.arm.update(this.kinematics);
+    this.measured.update(this.row);
     this.frames.update();
-    this.regions.update(this.t_s);
-    this.views.update(this.t_s);
+    this.regions.update(this.t_s, gliding);
+    this.views.update(this.t_s, gliding);
     this.waypoints.update(this.t_s);
     this.path.update(this.row);
+    this.mover?.update(this.t_s, gliding);
     if (!this.isPainted) this.light();
     this.renderer.render(this.scene, this.camera);
     this.placeLabels();
@@ -139,6 +168,8 @@ export class Stage {
     this.arm.paint(this.look.limb, this.look.housing, this.look.ring);
     this.room.paint(this.look);
     this.path.paint(this.look);
+    this.measured.paint(this.look);
+    this.mover?.paint(this.look);
     this.isPainted = false;
     this.isDirty = true;
   }
@@ -170,6 +201,27 @@ export class Stage {
     this.isDirty = true;
   }
 
+  /** Draws anew what hands may do: something is selected, or may not be moved any more. */
+  refresh(): void {
+    this.isDirty = true;
+  }
+
+  /** Moves what is selected, by steps to the right, away and up [m]. */
+  nudge(right: number, away: number, up: number, step: number): void {
+    this.mover?.nudge(right, away, up, step);
+    this.isDirty = true;
+  }
+
+  /** Lets go of what is dragged, and back; whether anything was. */
+  cancel(): boolean {
+    return this.pointer?.cancel() ?? false;
+  }
+
+  /** Says beside the scene why something was not done. */
+  complain(text: string): void {
+    this.pointer?.complain(text);
+  }
+
   /** What is seen, for those who do not see it. */
   describe(text: string): void {
     this.renderer.domElement.setAttribute("aria-label", text);
@@ -186,9 +238,34 @@ export class Stage {
     this.pointed = null;
     this.raycaster.setFromCamera(at, this.camera);
     const task = this.regions.pick(this.raycaster, this.run.modeAt(this.row).active);
+    this.hover(at);
     if (task === this.chosen) return;
     this.choose(task);
     this.onPoint?.(task);
+  }
+
+  private hover(at: Vector2): void {
+    if (!this.mover) return;
+    const found = Math.abs(at.x) > 1 ? null : this.mover.at(at);
+    this.pointer?.hover(found?.handle ?? null, at);
+    this.isDirty = true;
+  }
+
+  /** Takes the scene that was in force at a time, and what shall be. */
+  private take(t_s: number): void {
+    const [shown, newest] = [this.run.sceneAt(t_s), this.run.scene];
+    if (newest !== this.newest) {
+      this.newest = newest;
+      this.mover?.take();
+      this.isDirty = true;
+    }
+    if (shown === this.shown) return;
+    this.shown = shown;
+    this.regions.take(shown);
+    this.views.take(shown);
+    this.waypoints.take(shown);
+    this.isPainted = false;
+    this.isDirty = true;
   }
 
   private waypoint(row: number): number {
@@ -216,23 +293,10 @@ export class Stage {
 
   private placeLabels(): void {
     const { active } = this.run.modeAt(this.row);
-    const shown = [
+    this.labels.place(this.camera, [
       ...this.waypoints.labels(this.chosen).map((label) => ({ ...label, kind: "waypoint" })),
       ...this.regions.labels(active, this.chosen).map((label) => ({ ...label, kind: "region" })),
       ...this.views.labels(active, this.chosen).map((label) => ({ ...label, kind: "region" })),
-    ];
-    while (this.labels.children.length < shown.length) this.labels.append(element("span"));
-    const { clientWidth, clientHeight } = this.element;
-    [...this.labels.children].forEach((child, i) => {
-      const node = child as HTMLElement;
-      const label = shown[i];
-      node.hidden = !label;
-      if (!label) return;
-      if (node.textContent !== label.text) node.textContent = label.text;
-      if (node.className !== label.kind) node.className = label.kind;
-      const { x, y, z } = label.at.project(this.camera);
-      node.hidden = z > 1;
-      node.style.transform = `translate(${((x + 1) / 2) * clientWidth}px, ${((1 - y) / 2) * clientHeight}px)`;
-    });
+    ]);
   }
 }

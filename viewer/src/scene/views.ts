@@ -4,8 +4,9 @@ import {
   BufferGeometry, ConeGeometry, Group, Line, LineBasicMaterial, Mesh, MeshBasicMaterial, Object3D,
   SphereGeometry, TorusGeometry, Vector3,
 } from "three";
-import type { Task } from "../protocol";
-import type { Run } from "../run";
+import type { Glide, Scene, Task } from "../protocol";
+import type { Gliding } from "../run";
+import { discard } from "./discard";
 import type { Frames } from "./frames";
 import { point } from "./geometry";
 import { Glass } from "./glass";
@@ -17,6 +18,7 @@ const LENGTH = 0.3;
 /** A cone wider than this is drawn as wide [rad]. */
 const WIDEST = 1.3;
 const Z = new Vector3(0, 0, 1);
+const TYPES = ["field_of_view", "pointing_angle", "look_at"];
 
 interface View {
   task: Task;
@@ -29,15 +31,24 @@ interface View {
 
 export class Views {
   readonly object = new Group();
-  private readonly views: View[] = [];
-  private readonly length: number;
+  /** Length of a cone [m]. */
+  readonly length: number;
+  private views: View[] = [];
   private readonly apex = new Vector3();
   private readonly axis = new Vector3();
   private readonly end = new Vector3();
+  private readonly turn = new Vector3();
 
-  constructor(run: Run, private readonly frames: Frames, reach: number) {
+  constructor(private readonly frames: Frames, private readonly reach: number) {
     this.length = LENGTH * reach;
-    for (const task of run.scene.tasks) this.add(task, reach);
+  }
+
+  /** Takes a scene; does nothing if there are the same views in it. */
+  take({ tasks }: Scene): void {
+    const wanted = tasks.filter(({ type }) => TYPES.includes(type));
+    if (wanted.length === this.views.length && wanted.every((task, nth) => task === this.views[nth]!.task)) return;
+    discard(this.object);
+    this.views = wanted.map((task) => this.made(task));
   }
 
   light(active: ReadonlySet<string>, colour: string | null, chosen: string | null, look: Look): void {
@@ -57,16 +68,18 @@ export class Views {
       .map(({ task, cone }) => ({ text: task.name, at: cone!.localToWorld(new Vector3(0, 0, this.length)) }));
   }
 
-  update(t_s: number): void {
+  update(t_s: number, gliding: Gliding): void {
     for (const { task, cone, ray, target } of this.views) {
+      const glide = gliding.get(task.name);
       this.frames.at(task.frame, this.apex);
       const measured = this.frames.measured(task.frame);
       if (task.type === "look_at") {
         this.frames.direction(measured, [0, 0, 1], this.axis);
-        this.aim(task, t_s);
+        this.aim(task, t_s, glide);
         target?.position.copy(this.end);
       } else {
         const direction = directionAt(task.direction ?? [0, 0, 1], task, t_s);
+        if (glide?.away_rad) rotate(direction, this.turn.set(...glide.away_rad));
         this.frames.direction(task.relative_to, direction.toArray(), this.axis);
         const own = typeof task.axis === "object" ? task.axis : [0, 0, 1];
         this.frames.direction(measured, own, this.end);
@@ -75,6 +88,8 @@ export class Views {
       if (cone) {
         cone.position.copy(this.apex);
         cone.quaternion.setFromUnitVectors(Z, this.axis.normalize());
+        const wide = this.radius(task, glide?.away_max ?? 0) / this.radius(task, 0);
+        cone.scale.set(wide, wide, 1);
       }
       const ends = ray.geometry.getAttribute("position");
       ends.setXYZ(0, this.apex.x, this.apex.y, this.apex.z);
@@ -84,8 +99,9 @@ export class Views {
   }
 
   /** Where the point of a `look_at` is now. */
-  private aim(task: Task, t_s: number): void {
+  private aim(task: Task, t_s: number, glide: Glide | undefined): void {
     const at = shiftAt(task, t_s, new Vector3()).add(point(task.point_m ?? [0, 0, 0]));
+    if (glide?.away_m) at.add(this.turn.set(...glide.away_m));
     if (task.relative_to) {
       const start = this.frames.at(task.relative_to, new Vector3());
       this.frames.direction(task.relative_to, at.toArray(), this.end).add(start);
@@ -94,15 +110,20 @@ export class Views {
     }
   }
 
-  private add(task: Task, reach: number): void {
-    if (!["field_of_view", "pointing_angle", "look_at"].includes(task.type)) return;
-    const half = halfAngle(task);
+  /** Radius of the rim of a cone whose bound is so far from where the task has it [m]. */
+  private radius(task: Task, away: number): number {
+    const half = halfAngle({ ...task, max: (task.max ?? 0) + away }) ?? 0;
+    return this.length * Math.tan(Math.min(Math.max(half, 1e-3), WIDEST));
+  }
+
+  private made(task: Task): View {
+    const { reach } = this;
     let cone: Group | null = null, glass: Glass | null = null, rim: MeshBasicMaterial | null = null;
-    if (half !== null) {
+    if (halfAngle(task) !== null) {
       cone = new Group();
       glass = new Glass("shell");
       rim = new MeshBasicMaterial();
-      const radius = this.length * Math.tan(Math.min(half, WIDEST));
+      const radius = this.radius(task, 0);
       // Its point at the origin, open towards z.
       const geometry = new ConeGeometry(radius, this.length, 56, 1, true)
         .translate(0, -this.length / 2, 0)
@@ -123,8 +144,14 @@ export class Views {
       target = new Mesh(new SphereGeometry(0.012 * reach, 20, 14), ray.material);
       this.object.add(target);
     }
-    this.views.push({ task, cone, glass, rim, ray, target });
+    return { task, cone, glass, rim, ray, target };
   }
+}
+
+/** Turns a direction by a rotation vector. */
+function rotate(direction: Vector3, turn: Vector3): void {
+  const angle = turn.length();
+  if (angle > 0) direction.applyAxisAngle(turn.divideScalar(angle), angle);
 }
 
 /** Half the angle of a cone [rad], of a task that has one. */

@@ -2,8 +2,9 @@
 // as reached, and the orientation that is asked for there.
 
 import { Group, Mesh, MeshBasicMaterial, Object3D, Quaternion, SphereGeometry, Vector3 } from "three";
-import type { Quaternion as Turn, Task, Vector } from "../protocol";
+import type { Quaternion as Turn, Scene, Task, Vector } from "../protocol";
 import type { Run } from "../run";
+import { discard } from "./discard";
 import type { Frames } from "./frames";
 import { Glass } from "./glass";
 import type { Look } from "./look";
@@ -20,14 +21,26 @@ interface Goal {
 }
 
 export class Waypoints {
-  private readonly goals: Goal[] = [];
+  private goals: Goal[] = [];
+  private tasks: Task[] = [];
 
-  constructor(private readonly run: Run, frames: Frames, private readonly reach: number) {
-    for (const task of run.scene.tasks) {
+  constructor(private readonly run: Run, private readonly frames: Frames, private readonly reach: number) {}
+
+  /** Takes a scene; does nothing if the same goals are in it. */
+  take(scene: Scene): void {
+    const wanted = scene.tasks.filter((task) => goalsOf(task).length > 0);
+    if (wanted.length === this.tasks.length && wanted.every((task, nth) => task === this.tasks[nth])) return;
+    for (const { object } of this.goals) {
+      object.removeFromParent();
+      discard(object);
+    }
+    this.goals = [];
+    this.tasks = wanted;
+    for (const task of wanted) {
       goalsOf(task).forEach((where, nth) => {
         const label = task.waypoints_m?.length ? String(nth + 1) : task.name;
         const turn = task.waypoints_quaternion_wxyz?.[nth] ?? task.desired_quaternion_wxyz;
-        this.add(task, label, where, turn, frames.group(task.relative_to));
+        this.add(task, label, where, turn, this.frames.group(task.relative_to));
       });
     }
   }
@@ -77,7 +90,7 @@ export class Waypoints {
 }
 
 /** The points that a task asks for. */
-function goalsOf(task: Task): readonly Vector[] {
+export function goalsOf(task: Task): readonly Vector[] {
   if (task.waypoints_m?.length) return task.waypoints_m;
   if (task.target_m) return [task.target_m];
   const [x, y, z] = task.type === "position" ? (task.desired ?? []) : [];

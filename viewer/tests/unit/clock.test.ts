@@ -1,5 +1,5 @@
 import { describe, expect, test } from "vitest";
-import { Clock } from "../../src/clock";
+import { Clock, horizon } from "../../src/clock";
 
 describe("the clock", () => {
   test("runs at its speed, and stops at the end", () => {
@@ -49,5 +49,53 @@ describe("the clock", () => {
     for (let step = 0; step < 20; step++) clock.changeSpeed(1);
     expect(clock.speed).toBe(8);
     expect(told).toBe(24);
+  });
+});
+
+describe("the clock of a run that is going on", () => {
+  const live = () => {
+    const clock = new Clock(0, 0);
+    clock.live = true;
+    clock.grow(0, 5);
+    clock.follow();
+    return clock;
+  };
+
+  test("stays at now while it follows, and in the past when somebody looks there", () => {
+    const clock = live();
+    clock.grow(0, 6);
+    expect(clock.t_s).toBe(6);
+    clock.seek(2);
+    clock.grow(0, 9);
+    expect([clock.t_s, clock.following]).toEqual([2, false]);
+    clock.seek(99);
+    expect([clock.t_s, clock.following]).toEqual([9, true]);
+  });
+
+  test("goes on with the run when a replay has caught up", () => {
+    const clock = live();
+    clock.seek(4.9);
+    clock.toggle();
+    for (const ms of [0, 100, 200]) clock.advance(ms);
+    expect([clock.t_s, clock.following, clock.playing]).toEqual([5, true, false]);
+  });
+
+  test("goes back with a run that begins again", () => {
+    const clock = live();
+    clock.seek(4);
+    clock.grow(0, 1);
+    expect(clock.t_s).toBe(1);
+  });
+
+  test("stops at the end of a run that is over", () => {
+    const clock = live();
+    clock.live = false;
+    clock.seek(5);
+    expect(clock.following).toBe(false);
+  });
+
+  test("has axes that end somewhat later, at a round time", () => {
+    const ends = [0, 10, 10.1, 59, 61, 299, 301, 3600].map(horizon);
+    expect(ends).toEqual([10, 10, 20, 60, 90, 300, 600, 3600]);
   });
 });
