@@ -111,7 +111,7 @@ describe("a scenario that runs in the page", () => {
     await page.getByLabel("mode rule").selectOption("cone");
     await expect.poll(async () => (await recording()).runs[0]!.scene.settings.mode_rule).toBe("cone");
     const [download] = await Promise.all([page.waitForEvent("download"), press("Save as scenario")]);
-    expect(download.suggestedFilename()).toBe("example2.toml");
+    expect(download.suggestedFilename()).toBe("example2-edited.toml");
     const toml = await readFile(await download.path(), "utf8");
     expect(toml).toContain('mode_rule = "cone"');
     expect(toml.indexOf("obstacle_b")).toBeLessThan(toml.indexOf("obstacle_a"));
