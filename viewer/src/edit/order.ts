@@ -66,6 +66,8 @@ function dropAt(bench: Workbench, row: TaskRow, y: number): { element: Element; 
     if (!isBefore && nth < rows.length - 1) continue;
     const at = isBefore ? nth : nth + 1;
     element.setAttribute("data-drop", isBefore ? "before" : "after");
+    // Whoever drags to the edge of the list sees what comes beyond it.
+    (isBefore ? (element.previousElementSibling ?? element) : element).scrollIntoView({ block: "nearest" });
     // Taken out of its place, those below it move up.
     return { element, at: at > own ? at - 1 : at };
   }

@@ -7,7 +7,7 @@ import type { Recording } from "../../src/protocol";
 import { open, visit } from "./browser";
 import { Folder, ran, Served } from "./conik";
 import { Mock } from "./mock";
-import { drag, spotOf } from "./scene";
+import { drag, labelled, spotOf } from "./scene";
 
 let folder: Folder, browser: Browser, recording: Recording, mock: Mock;
 
@@ -69,7 +69,10 @@ describe("in the scene", () => {
 
   test("a waypoint and a direction can be dragged too", async () => {
     const page = await follow();
-    await drag(page, await spotOf(page, /^waypoint 2 of position/), 30, -10);
+    const spot = await labelled(page, "2");
+    await page.mouse.move(spot.x, spot.y);
+    await expect.poll(() => page.locator(".tip").textContent()).toMatch(/^waypoint 2 of position/);
+    await drag(page, spot, 30, -10);
     await page.mouse.up();
     await expect.poll(() => mock.scene.tasks[3]!.waypoints_m![1]).not.toEqual(recording.runs[0]!.scene.tasks[3]!.waypoints_m![1]);
     expect(mock.scene.tasks[3]!.waypoints_m![0]).toEqual(recording.runs[0]!.scene.tasks[3]!.waypoints_m![0]);
@@ -204,7 +207,7 @@ describe("as numbers", () => {
 
 describe("the order", () => {
   test("is changed by keys, by buttons, and by a hand", async () => {
-    const page = await follow();
+    const page = await follow({}, { viewport: { width: 900, height: 1100 } });
     await row(page, "obstacle_a").focus();
     await page.keyboard.press("Alt+ArrowDown");
     await expect.poll(() => names(page)).toEqual(["obstacle_b", "obstacle_a", "view", "position"]);
@@ -219,7 +222,7 @@ describe("the order", () => {
     await page.mouse.move(from.x + 6, from.y + 8);
     await page.mouse.down();
     await page.mouse.move(from.x + 6, (await target.boundingBox())!.y + 4, { steps: 6 });
-    expect(await target.getAttribute("data-drop")).toBe("before");
+    await expect.poll(() => target.getAttribute("data-drop")).toBe("before");
     await page.mouse.up();
     await expect.poll(() => names(page)).toEqual(["position", "obstacle_b", "view", "obstacle_a"]);
   });

@@ -25,6 +25,17 @@ export async function spotOf(page: Page, says: RegExp): Promise<Spot> {
   throw new Error(`nothing in the scene says ${String(says)}`);
 }
 
+/** The point of the scene that a label belongs to. */
+export async function labelled(page: Page, text: string): Promise<Spot> {
+  const label = page.locator(".labels span:visible", { hasText: text }).first();
+  const { left, top } = await label.evaluate((it) => {
+    const { e, f } = new DOMMatrix(getComputedStyle(it).transform);
+    return { left: e, top: f };
+  });
+  const box = (await page.locator(".stage").boundingBox())!;
+  return { x: box.x + left, y: box.y + top };
+}
+
 /** Drags from a spot by so many pixels, and leaves the button down. */
 export async function drag(page: Page, { x, y }: Spot, right: number, down: number): Promise<void> {
   await page.mouse.move(x, y);
