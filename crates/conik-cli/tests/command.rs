@@ -10,6 +10,7 @@ mod command {
     mod gallery;
     mod gallery_pages;
     mod live;
+    mod live_guard;
     mod monitors;
     mod network;
     mod outputs;
@@ -21,4 +22,5 @@ mod command {
     mod trouble;
     mod urdf;
     mod view;
+    mod watched;
 }

@@ -1,5 +1,7 @@
 //! What moves in a run besides the arm: points, targets, directions, desired values, bounds, obstacles.
 
+mod glide_from;
+
 use conik::{
     BoundRates, Distance, FieldOfView, FramePose, Interval, LookAt, Orientation, OrientationAngle,
     PointingAngle, Pose, Setpoints, ShapeDistance, StackError, Task, TaskId, Vec3,
@@ -18,15 +20,15 @@ pub struct Mover {
     /// Its desired value at t = 0, if it has one.
     desired: Option<Vec<f64>>,
     /// Its allowed values, if it is a set.
-    interval: Option<Interval>,
+    pub(super) interval: Option<Interval>,
     /// How it moves.
     pub motion: Motion,
     /// How far it is from there, after a change of the scenario.
-    away: Away,
+    pub(super) away: Away,
     /// How fast it makes that up; `None`: as before the change, or at the usual speed.
     pub(crate) glide_speed: Option<GlideSpeed>,
     /// Whether the task knows where it is, and that it rests there.
-    is_settled: bool,
+    pub(super) is_settled: bool,
     /// Whether the last tick was told that bounds move.
     bounds_move: bool,
 }
@@ -71,7 +73,7 @@ impl Mover {
     }
 
     /// Where its point or target is at t = 0, if it has one [m].
-    fn start(&self) -> Option<[f64; 3]> {
+    pub(super) fn start(&self) -> Option<[f64; 3]> {
         match self.kind {
             TaskKind::Distance { point_m } | TaskKind::LookAt { point_m } => Some(point_m),
             TaskKind::Pose { target_m, .. } => Some(target_m),
@@ -91,114 +93,6 @@ impl Mover {
     /// How far it still is from where the scenario has it.
     pub fn away(&self) -> &Away {
         &self.away
-    }
-
-    /// Takes over where `old`, the same task before a change of the scenario, is at `t_s` [s], to glide from
-    /// there to where the scenario has it now. `false` if no gliding leads from one to the other, so that
-    /// the task jumps.
-    pub(crate) fn glide_from(&mut self, old: &Self, t_s: f64) -> bool {
-        self.glide_speed = self.glide_speed.or(old.glide_speed);
-        // Only what is kept needs time to get away from.
-        let (Some(interval), Some(before)) = (self.interval, old.interval) else {
-            return self.interval.is_none() && old.interval.is_none();
-        };
-        let (Some(point_m), Some(turn_rad)) = (self.point_from(old, t_s), self.turn_from(old, t_s))
-        else {
-            return false;
-        };
-        let bound = |before: f64, away: f64, now: f64| match (before.is_finite(), now.is_finite()) {
-            (true, true) => Some(before + away - now),
-            (false, false) => Some(0.0),
-            _ => None,
-        };
-        let (Some(min), Some(max)) = (
-            bound(before.min, old.away.min, interval.min),
-            bound(before.max, old.away.max, interval.max),
-        ) else {
-            return false;
-        };
-        self.away = Away {
-            point_m,
-            turn_rad,
-            min,
-            max,
-        };
-        self.is_settled &= self.away.is_none();
-        true
-    }
-
-    /// From its own point at `t_s` [s] to where that of `old` is; `None` if more than that differs.
-    fn point_from(&self, old: &Self, t_s: f64) -> Option<Vec3> {
-        let is_alike = match (&self.kind, &old.kind) {
-            (TaskKind::Distance { .. }, TaskKind::Distance { .. })
-            | (TaskKind::LookAt { .. }, TaskKind::LookAt { .. }) => true,
-            (TaskKind::Shapes(now), TaskKind::Shapes(before)) => {
-                now.link == before.link
-                    && now.shape == before.shape
-                    && now.other_link == before.other_link
-                    && before.other.moved_to(now.other.point()).is_near(&now.other)
-            }
-            _ => return Some(Vec3::default()),
-        };
-        let (start, from) = (self.start()?, old.start()?);
-        let now = Vec3::from(self.motion.point_at(start, t_s));
-        let before = Vec3::from(old.motion.point_at(from, t_s)) + old.away.point_m;
-        is_alike.then(|| before - now)
-    }
-
-    /// The rotation vector from its own direction or orientation at `t_s` [s] to that of `old`; `None` if
-    /// more than that differs.
-    fn turn_from(&self, old: &Self, t_s: f64) -> Option<Vec3> {
-        match (&self.kind, &old.kind) {
-            (
-                TaskKind::FieldOfView { direction },
-                TaskKind::FieldOfView {
-                    direction: before, ..
-                },
-            ) => Some(between(
-                self.direction_at(direction, t_s),
-                old.direction_at(before, t_s),
-            )),
-            (
-                TaskKind::PointingAngle { axis, direction },
-                TaskKind::PointingAngle {
-                    axis: old_axis,
-                    direction: before,
-                },
-            ) => (axis == old_axis).then(|| {
-                between(
-                    self.direction_at(direction, t_s),
-                    old.direction_at(before, t_s),
-                )
-            }),
-            (
-                TaskKind::OrientationAngle {
-                    desired_quaternion_wxyz: desired,
-                },
-                TaskKind::OrientationAngle {
-                    desired_quaternion_wxyz: before,
-                },
-            ) => {
-                let now = self.orientation_at(desired, t_s);
-                let before = old.orientation_at(before, t_s);
-                Some((before * now.inverse()).rotation_vector())
-            }
-            (TaskKind::Distance { .. }, TaskKind::Distance { .. })
-            | (TaskKind::LookAt { .. }, TaskKind::LookAt { .. })
-            | (TaskKind::Shapes(_), TaskKind::Shapes(_)) => Some(Vec3::default()),
-            (now, before) => (now == before).then(Vec3::default),
-        }
-    }
-
-    fn direction_at(&self, direction: &[f64; 3], t_s: f64) -> Vec3 {
-        let turned = Vec3::from(self.motion.turned_at(t_s));
-        let there = Vec3::from(*direction).turned_by(turned);
-        there.turned_by(self.away.turn_rad)
-    }
-
-    fn orientation_at(&self, start_wxyz: &[f64; 4], t_s: f64) -> Pose {
-        let turned = Vec3::from(self.motion.turned_at(t_s));
-        Pose::turned(self.away.turn_rad) * turned_pose(turned, *start_wxyz)
     }
 
     /// Tells the task where everything is at `t_s` [s] and where it will be a period later. Called before
@@ -344,25 +238,6 @@ impl During {
     }
 }
 
-/// The shortest rotation vector that turns one direction into another [rad].
-fn between(from: Vec3, to: Vec3) -> Vec3 {
-    let axis = from.cross(to);
-    let (sine, cosine) = (axis.norm(), from.dot(to));
-    if sine > 1e-12 {
-        return axis * (sine.atan2(cosine) / sine);
-    }
-    if cosine > 0.0 {
-        return Vec3::default();
-    }
-    // Straight back: about any axis across.
-    let across = if from.x.abs() < 0.5 {
-        Vec3::new(1.0, 0.0, 0.0)
-    } else {
-        Vec3::new(0.0, 1.0, 0.0)
-    };
-    from.cross(across).normalized() * std::f64::consts::PI
-}
-
 /// Changes a task that is of this type.
 fn change<T: Task>(setpoints: &mut Setpoints<'_>, id: TaskId, change: impl FnOnce(&mut T)) {
     if let Some(task) = setpoints.task_mut(id) {
@@ -371,6 +246,6 @@ fn change<T: Task>(setpoints: &mut Setpoints<'_>, id: TaskId, change: impl FnOnc
 }
 
 /// An orientation, turned on by a rotation vector [rad].
-fn turned_pose(turned: Vec3, start_wxyz: [f64; 4]) -> Pose {
+pub(super) fn turned_pose(turned: Vec3, start_wxyz: [f64; 4]) -> Pose {
     Pose::turned(turned) * Pose::from_quaternion_wxyz(start_wxyz)
 }

@@ -12,6 +12,7 @@ mod robot;
 mod scene;
 pub mod server;
 mod ticks;
+mod upgrade;
 
 pub use page::PAGE;
 pub use recording::{Recording, ViewError};

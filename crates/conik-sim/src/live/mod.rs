@@ -7,6 +7,7 @@
 //! bounds of sets do not jump then, they glide ([`Away`]). Nothing here knows who asks.
 
 mod change;
+mod edit;
 mod glide;
 mod helm;
 mod pace;

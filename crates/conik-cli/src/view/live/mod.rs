@@ -8,7 +8,8 @@ mod client;
 mod history;
 mod message;
 mod session;
-mod state;
+mod steer;
+mod step_times;
 
 pub(super) use client::attend;
 pub use session::{Arm, Live};

@@ -5,17 +5,17 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
 use conik_sim::experiment::{Experiment, ExperimentError};
-use conik_sim::live::{Change, Helm, Stretch};
+use conik_sim::live::Helm;
 use conik_sim::record::Record;
 use conik_sim::scenario::Scenario;
 use conik_sim::summary::{ChangeMade, Outcome};
 use tokio::sync::broadcast;
 use tokio_tungstenite::tungstenite::Utf8Bytes;
 
-use super::allowed::{Act, Allowed};
+use super::allowed::Allowed;
 use super::history::History;
-use super::message::{Asked, Glide, LiveScene, LiveTicks, Request, Stage, State, Told, json};
-use super::state::StepTimes;
+use super::message::{Glide, LiveScene, LiveTicks, Stage, State, Told, json};
+use super::step_times::StepTimes;
 use crate::view::{MOST_ROWS, Recording, Scene, Ticks};
 
 /// Bundles that may wait for a client: two seconds' worth. One that is further behind is cut off.
@@ -23,12 +23,6 @@ const BUNDLES_WAITING: usize = 64;
 
 /// How long the state may go untold.
 const TELL_STATE_EVERY: Duration = Duration::from_secs(1);
-
-/// Ticks that may be asked for at once.
-const MOST_TICKS: u32 = 1000;
-
-/// The fastest that a simulated run may go.
-const FASTEST: f64 = 10.0;
 
 /// Which arm is driven.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -49,34 +43,35 @@ pub enum Arm {
 #[derive(Debug)]
 pub struct Live {
     /// Where the loop is told what to do.
-    helm: Helm,
-    arm: Arm,
+    pub(super) helm: Helm,
+    pub(super) arm: Arm,
     /// Name of the scenario, and of the arm.
-    name: String,
-    arm_name: String,
+    pub(super) name: String,
+    pub(super) arm_name: String,
     viewers: AtomicUsize,
     session: Mutex<Session>,
     bundles: broadcast::Sender<Utf8Bytes>,
 }
 
+/// What is known of the run.
 #[derive(Debug)]
-struct Session {
+pub(super) struct Session {
     /// As it was read, as the run began, and as it is now.
-    original: Scenario,
-    first: Scenario,
-    present: Scenario,
-    revision: u64,
-    scene: Scene,
-    from_s: f64,
+    pub(super) original: Scenario,
+    pub(super) first: Scenario,
+    pub(super) present: Scenario,
+    pub(super) revision: u64,
+    pub(super) scene: Scene,
+    pub(super) from_s: f64,
     /// By what name to tell of each task that glides.
     gliding_names: Vec<String>,
     history: History,
     is_to_reset: bool,
     steps: StepTimes,
     deadline_misses: u64,
-    t_s: f64,
-    outcome: Option<Outcome>,
-    made: Vec<(u64, ChangeMade)>,
+    pub(super) t_s: f64,
+    pub(super) outcome: Option<Outcome>,
+    pub(super) made: Vec<(u64, ChangeMade)>,
     told: Option<(Instant, State)>,
 }
 
@@ -217,7 +212,7 @@ impl Live {
     }
 
     /// Nobody there is no error.
-    fn send(&self, message: &str) {
+    pub(super) fn send(&self, message: &str) {
         let _ = self.bundles.send(message.into());
     }
 
@@ -265,129 +260,14 @@ impl Live {
         }
     }
 
-    /// Does what a client asks; the answer.
-    pub(super) fn answer(&self, text: &str) -> String {
-        let asked = serde_json::from_str::<Request>(text);
-        let Request { id, what } = match asked {
-            Ok(request) => request,
-            Err(error) => {
-                let id = serde_json::from_str::<serde_json::Value>(text);
-                let id = id.ok().and_then(|it| it["id"].as_f64());
-                return json(&Told::Answer {
-                    id: id.unwrap_or(-1.0),
-                    revision: None,
-                    error: Some(format!("not a message of the protocol: {error}")),
-                });
-            }
-        };
-        if let Asked::Save = what {
-            return json(&Told::Text {
-                id,
-                name: format!("{}-edited.toml", self.name),
-                toml: self.session().present.to_toml(),
-            });
-        }
-        let done = self.act(what);
-        json(&Told::Answer {
-            id,
-            revision: done.as_ref().ok().copied(),
-            error: done.err(),
-        })
-    }
-
-    /// The number of the newest change, after it was done.
-    fn act(&self, what: Asked) -> Result<u64, String> {
-        let session = &mut *self.session();
-        let allowed = Allowed::with(self.arm, session.outcome.is_some());
-        let helm = &self.helm;
-        match what {
-            Asked::Pause => {
-                allowed.check(Act::Pause)?;
-                helm.pause();
-            }
-            Asked::Resume => {
-                allowed.check(Act::Pause)?;
-                helm.resume();
-            }
-            Asked::Step { ticks } => {
-                allowed.check(Act::Step)?;
-                if !(1..=MOST_TICKS).contains(&ticks) {
-                    return Err(format!("`ticks` must be 1 to {MOST_TICKS}, not {ticks}"));
-                }
-                helm.step(ticks);
-            }
-            Asked::Speed { factor } => {
-                allowed.check(Act::Speed)?;
-                let fastest = self.fastest();
-                if !(factor >= Helm::LEAST_SPEED && factor <= fastest) {
-                    let least = Helm::LEAST_SPEED;
-                    return Err(format!(
-                        "`factor` must be {least} to {fastest} with this arm, not {factor}"
-                    ));
-                }
-                helm.set_speed(factor);
-            }
-            Asked::Restart => {
-                allowed.check(Act::Restart)?;
-                helm.restart();
-            }
-            Asked::Reset => {
-                allowed.check(Act::Change)?;
-                let original = session.original.clone();
-                self.go_by(session, original, &[], ChangeMade::all_taken_back())?;
-            }
-            Asked::Change { changes } => {
-                allowed.check(Act::Change)?;
-                self.change(session, changes)?;
-            }
-            // Answered by others.
-            Asked::Save => {}
-        }
-        Ok(session.revision)
-    }
-
-    /// The greatest speed at which the run may go.
-    fn fastest(&self) -> f64 {
-        match self.arm {
-            Arm::Simulated { has_clock: false } => FASTEST,
-            _ => 1.0,
-        }
-    }
-
-    fn change(&self, session: &mut Session, changes: Vec<Change>) -> Result<(), String> {
-        let changed = session.present.changed(&changes, session.t_s);
-        let (scenario, speeds) = changed.map_err(|error| error.to_string())?;
-        self.go_by(session, scenario, &speeds, ChangeMade::of(changes))
-    }
-
-    fn go_by(
-        &self,
-        session: &mut Session,
-        scenario: Scenario,
-        speeds: &[(String, conik_sim::live::GlideSpeed)],
-        made: ChangeMade,
-    ) -> Result<(), String> {
-        let stretch = Stretch::next(&session.first, &scenario, speeds);
-        let stretch = stretch.map_err(|error| error.to_string())?;
-        let scene = Scene::live(&scenario, &self.arm_name, true);
-        session.scene = scene.map_err(|error| error.to_string())?;
-        session.revision += 1;
-        session.from_s = session.t_s;
-        self.helm.hand_over(Box::new(stretch), session.revision);
-        session.present = scenario;
-        session.made.push((session.revision, made));
-        self.send(&session.scene_message(&self.name, false));
-        Ok(())
-    }
-
     /// What is behind the lock is numbers and text; whoever panicked with it in hand left it no worse.
-    fn session(&self) -> MutexGuard<'_, Session> {
+    pub(super) fn session(&self) -> MutexGuard<'_, Session> {
         self.session.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
 
 impl Session {
-    fn scene_message(&self, name: &str, with_robot: bool) -> String {
+    pub(super) fn scene_message(&self, name: &str, with_robot: bool) -> String {
         let without = (!with_robot).then(|| self.scene.without_robot());
         json(&LiveScene {
             scene: without.as_ref().unwrap_or(&self.scene),
