@@ -1,14 +1,10 @@
 //! Reads `log.csv` back: each column by its name, and which sets were active in which row.
 
-use std::collections::HashMap;
-use std::fs::File;
-use std::io::{self, BufRead, BufReader, Read};
-use std::path::{Path, PathBuf};
-use std::str::FromStr;
+use std::io::BufRead;
+use std::path::Path;
 
-/// Bytes of the longest line that is read, beyond what thousands of tasks need: a file without line
-/// ends would else fill the memory.
-const LONGEST_LINE: u64 = 1 << 20;
+use super::error::LogError;
+use super::rows::LogRows;
 
 /// The log of one run, by columns.
 ///
@@ -41,12 +37,26 @@ impl Log {
         path: impl AsRef<Path>,
         keep: impl Fn(&str) -> bool,
     ) -> Result<Self, LogError> {
-        let path = path.as_ref();
-        let file = File::open(path).map_err(|source| LogError::Io {
-            path: path.to_owned(),
-            source,
-        })?;
-        Reader::new(path, BufReader::with_capacity(1 << 16, file)).read(keep)
+        Self::collect(LogRows::open(path, keep)?)
+    }
+
+    fn collect<R: BufRead>(mut rows: LogRows<R>) -> Result<Self, LogError> {
+        let mut log = Self {
+            columns: vec![Vec::new(); rows.names().len()],
+            ..Self::default()
+        };
+        while rows.advance()? {
+            let row = rows.row();
+            for (column, &value) in log.columns.iter_mut().zip(&row.numbers) {
+                column.push(value);
+            }
+            log.mode.push(row.mode);
+            log.active.push(row.active);
+            log.why.extend(row.why);
+        }
+        log.truncated = rows.is_truncated();
+        (log.names, log.active_sets, log.codes) = rows.into_lists();
+        Ok(log)
     }
 
     /// How many rows there are.
@@ -109,274 +119,20 @@ impl Log {
     }
 }
 
-/// Why a log could not be read.
-#[derive(Debug, thiserror::Error)]
-pub enum LogError {
-    /// The file cannot be opened or read.
-    #[error("{}: cannot be read", path.display())]
-    Io {
-        /// The file.
-        path: PathBuf,
-        /// What the operating system says.
-        source: io::Error,
-    },
-    /// A column that every log has is not there.
-    #[error("{}:1: there is no column `{column}`; is this the log.csv of a run?", path.display())]
-    MissingColumn {
-        /// The file.
-        path: PathBuf,
-        /// The column's name.
-        column: &'static str,
-    },
-    /// Two columns have the same name.
-    #[error("{}:1: the column `{column}` is there twice", path.display())]
-    RepeatedColumn {
-        /// The file.
-        path: PathBuf,
-        /// The column's name.
-        column: String,
-    },
-    /// A line is longer than that of any log.
-    #[error(
-        "{}:{line}: this line has more than {LONGEST_LINE} bytes; is this the log.csv of a run?",
-        path.display()
-    )]
-    LongLine {
-        /// The file.
-        path: PathBuf,
-        /// 1-based line.
-        line: u64,
-    },
-    /// A row has more or fewer cells than the header.
-    #[error("{}:{line}: {found} cells where the header has {expected}", path.display())]
-    Width {
-        /// The file.
-        path: PathBuf,
-        /// 1-based line.
-        line: u64,
-        /// Cells in the header.
-        expected: usize,
-        /// Cells in this line.
-        found: usize,
-    },
-    /// A cell is not what its column holds.
-    #[error("{}:{line}: column `{column}`: `{cell}` is not {expected}", path.display())]
-    Cell {
-        /// The file.
-        path: PathBuf,
-        /// 1-based line.
-        line: u64,
-        /// Name of the column.
-        column: String,
-        /// What stands there.
-        cell: String,
-        /// What should.
-        expected: &'static str,
-    },
-}
-
-/// What is done with the cells of a column.
-#[derive(Clone, Copy)]
-enum Use {
-    /// Kept as the column of this index.
-    Number(usize),
-    Mode,
-    Active,
-    Why,
-    Skip,
-}
-
-/// A log being read.
-struct Reader<'a, R> {
-    path: &'a Path,
-    source: R,
-    /// 1-based line last read.
-    line: u64,
-    header: Vec<String>,
-    uses: Vec<Use>,
-    known_sets: HashMap<String, u32>,
-    known_codes: HashMap<String, u32>,
-    log: Log,
-}
-
-impl<'a, R: BufRead> Reader<'a, R> {
-    fn new(path: &'a Path, source: R) -> Self {
-        Self {
-            path,
-            source,
-            line: 0,
-            header: Vec::new(),
-            uses: Vec::new(),
-            known_sets: HashMap::new(),
-            known_codes: HashMap::new(),
-            log: Log::default(),
-        }
-    }
-
-    fn read(mut self, keep: impl Fn(&str) -> bool) -> Result<Log, LogError> {
-        let mut text = String::new();
-        self.next_line(&mut text)?;
-        self.read_header(text.trim_end(), keep)?;
-        while self.next_line(&mut text)? {
-            if !text.ends_with('\n') {
-                self.log.truncated = true;
-                break;
-            }
-            let row = text.trim_end_matches(['\n', '\r']);
-            if !row.is_empty() {
-                self.read_row(row)?;
-            }
-        }
-        Ok(self.log)
-    }
-
-    /// Whether there was one more line; it is in `text`, with its end.
-    fn next_line(&mut self, text: &mut String) -> Result<bool, LogError> {
-        text.clear();
-        self.line += 1;
-        let path = || self.path.to_owned();
-        match (&mut self.source).take(LONGEST_LINE).read_line(text) {
-            Ok(bytes) if bytes as u64 == LONGEST_LINE && !text.ends_with('\n') => {
-                Err(LogError::LongLine {
-                    path: path(),
-                    line: self.line,
-                })
-            }
-            Ok(bytes) => Ok(bytes > 0),
-            Err(source) => Err(LogError::Io {
-                path: path(),
-                source,
-            }),
-        }
-    }
-
-    fn read_header(&mut self, text: &str, keep: impl Fn(&str) -> bool) -> Result<(), LogError> {
-        self.header = text.split(',').map(str::to_owned).collect();
-        for column in ["t_s", "mode", "active"] {
-            if !self.header.iter().any(|name| name == column) {
-                let path = self.path.to_owned();
-                return Err(LogError::MissingColumn { path, column });
-            }
-        }
-        for (at, name) in self.header.iter().enumerate() {
-            if self.header[..at].contains(name) {
-                return Err(LogError::RepeatedColumn {
-                    path: self.path.to_owned(),
-                    column: name.clone(),
-                });
-            }
-            self.uses.push(match name.as_str() {
-                "mode" => Use::Mode,
-                "active" => Use::Active,
-                "why" if keep("why") => Use::Why,
-                "why" => Use::Skip,
-                name if name == "t_s" || keep(name) => {
-                    self.log.names.push(name.to_owned());
-                    self.log.columns.push(Vec::new());
-                    Use::Number(self.log.columns.len() - 1)
-                }
-                _ => Use::Skip,
-            });
-        }
-        Ok(())
-    }
-
-    fn read_row(&mut self, row: &str) -> Result<(), LogError> {
-        let found = row.split(',').count();
-        if found != self.header.len() {
-            return Err(LogError::Width {
-                path: self.path.to_owned(),
-                line: self.line,
-                expected: self.header.len(),
-                found,
-            });
-        }
-        for (at, cell) in row.split(',').enumerate() {
-            match self.uses[at] {
-                Use::Skip => {}
-                Use::Number(column) => {
-                    let value = if cell.is_empty() {
-                        f64::NAN
-                    } else {
-                        self.parse(at, cell, "a number")?
-                    };
-                    self.log.columns[column].push(value);
-                }
-                Use::Mode => {
-                    let mode = if cell.is_empty() {
-                        None
-                    } else {
-                        Some(self.parse(at, cell, "the number of a mode")?)
-                    };
-                    self.log.mode.push(mode);
-                }
-                Use::Active => {
-                    let known = (&mut self.known_sets, &mut self.log.active_sets);
-                    let id = number_of(known, cell);
-                    self.log
-                        .active
-                        .push(id.ok_or_else(|| self.too_many(at, cell))?);
-                }
-                Use::Why => {
-                    let known = (&mut self.known_codes, &mut self.log.codes);
-                    let id = number_of(known, cell);
-                    self.log
-                        .why
-                        .push(id.ok_or_else(|| self.too_many(at, cell))?);
-                }
-            }
-        }
-        Ok(())
-    }
-
-    fn too_many(&self, at: usize, cell: &str) -> LogError {
-        self.bad_cell(at, cell, "one of at most 2^32")
-    }
-
-    fn parse<T: FromStr>(
-        &self,
-        at: usize,
-        cell: &str,
-        expected: &'static str,
-    ) -> Result<T, LogError> {
-        cell.parse().map_err(|_| self.bad_cell(at, cell, expected))
-    }
-
-    fn bad_cell(&self, at: usize, cell: &str, expected: &'static str) -> LogError {
-        LogError::Cell {
-            path: self.path.to_owned(),
-            line: self.line,
-            column: self.header[at].clone(),
-            cell: cell.to_owned(),
-            expected,
-        }
-    }
-}
-
-/// The number of a list of names joined by `+`: the one it has already, or the next; `None` if there
-/// are no more numbers.
-fn number_of(
-    (known, lists): (&mut HashMap<String, u32>, &mut Vec<Vec<String>>),
-    cell: &str,
-) -> Option<u32> {
-    if let Some(&id) = known.get(cell) {
-        return Some(id);
-    }
-    let id = u32::try_from(lists.len()).ok()?;
-    let names = cell.split('+').filter(|name| !name.is_empty());
-    lists.push(names.map(str::to_owned).collect());
-    known.insert(cell.to_owned(), id);
-    Some(id)
-}
-
 #[cfg(test)]
 mod tests {
+    use std::io::{self, BufReader, Read};
+
     use super::*;
 
     const HEADER: &str = "t_s,mode,active,waypoint,view,q1_rad,q2_rad\n";
 
     fn read(text: &str) -> Result<Log, LogError> {
-        Reader::new(Path::new("log.csv"), text.as_bytes()).read(|_| true)
+        read_columns(text, |_| true)
+    }
+
+    fn read_columns(text: &str, keep: impl Fn(&str) -> bool) -> Result<Log, LogError> {
+        Log::collect(LogRows::read(Path::new("log.csv"), text.as_bytes(), keep)?)
     }
 
     #[test]
@@ -453,16 +209,15 @@ mod tests {
     #[test]
     fn line_without_end_is_not_read_to_its_end() {
         let endless = BufReader::new(HEADER.as_bytes().chain(io::repeat(b'0')));
-        let error = Reader::new(Path::new("log.csv"), endless).read(|_| true);
-        let error = error.unwrap_err().to_string();
+        let rows = LogRows::read(Path::new("log.csv"), endless, |_| true).unwrap();
+        let error = Log::collect(rows).unwrap_err().to_string();
         assert!(error.contains("log.csv:2: this line has more"), "{error}");
     }
 
     #[test]
     fn unwanted_columns_are_not_kept() {
         let text = format!("{HEADER}0,1,,0,0.5,1,2\n");
-        let reader = Reader::new(Path::new("log.csv"), text.as_bytes());
-        let log = reader.read(|name| name.starts_with('q')).unwrap();
+        let log = read_columns(&text, |name| name.starts_with('q')).unwrap();
         assert_eq!(log.column("view"), None);
         assert_eq!(log.time_s(), [0.0]);
         assert_eq!(log.column("q1_rad"), Some(&[1.0][..]));
