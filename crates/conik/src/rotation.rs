@@ -53,6 +53,12 @@ impl Pose {
         v * angle_per_length
     }
 
+    /// The orientation as a quaternion w + x i + y j + z k of length 1, w not negative.
+    pub fn to_quaternion_wxyz(&self) -> [f64; 4] {
+        let (w, Vec3 { x, y, z }) = self.quaternion();
+        [w, x, y, z]
+    }
+
     /// Real and imaginary part of the unit quaternion of the orientation, the real part not negative. Of
     /// the four that could be divided by, the greatest component is (Shepperd 1978).
     fn quaternion(&self) -> (f64, Vec3) {
@@ -138,6 +144,28 @@ mod tests {
                 prop_assert!(difference(found.x_axis, expected.x_axis) < 1e-14);
                 prop_assert!(difference(found.y_axis, expected.y_axis) < 1e-14);
                 prop_assert!(difference(found.z_axis, expected.z_axis) < 1e-14);
+            }
+        }
+    }
+
+    #[test]
+    fn quaternions_lead_back_to_their_orientations() {
+        let half = 0.5_f64.sqrt();
+        let quarter = Pose::turned(Vec3::new(0.0, 0.0, 0.5 * PI)).to_quaternion_wxyz();
+        for (found, expected) in quarter.into_iter().zip([half, 0.0, 0.0, half]) {
+            assert!((found - expected).abs() < 1e-15, "{quarter:?}");
+        }
+        for angle in [0.0, 1e-9, 1.0, 3.0, PI, -2.0, 9.0] {
+            let turned = Pose::turned(Vec3::new(0.6, -0.48, 0.64) * angle);
+            let quaternion = turned.to_quaternion_wxyz();
+            let back = Pose::from_quaternion_wxyz(quaternion);
+            assert!(quaternion[0] >= 0.0, "{quaternion:?}");
+            for (found, expected) in [
+                (back.x_axis, turned.x_axis),
+                (back.y_axis, turned.y_axis),
+                (back.z_axis, turned.z_axis),
+            ] {
+                assert!(difference(found, expected) < 1e-14, "angle {angle}");
             }
         }
     }
