@@ -13,12 +13,12 @@ import subprocess
 import sys
 import tempfile
 import time
-import venv
 from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
-ROOT = HERE.parent.parent
-TARGET = Path(os.environ.get("CARGO_TARGET_DIR", ROOT / "target"))
+sys.path.append(str(HERE.parent))
+from environment import TARGET, provide_conik, provide_packages  # noqa: E402
+
 PACKAGES = ["ur-rtde==1.6.5", "urx==0.11.0"]
 # Seconds after which a client counts as hung.
 PATIENCE = 120
@@ -35,27 +35,6 @@ def own_address():
             except OSError:
                 pass
     sys.exit("no address of this computer can be listened on")
-
-
-def provide_packages(folder):
-    """The Python of an environment with the packages; installs them if need be."""
-    python = folder / ("Scripts/python.exe" if os.name == "nt" else "bin/python")
-    stamp = folder / "installed"
-    if not stamp.exists() or stamp.read_text().split() != PACKAGES:
-        venv.create(folder, with_pip=True, clear=True)
-        install = [python, "-m", "pip", "install", "--quiet", "--disable-pip-version-check"]
-        if subprocess.run([*install, *PACKAGES]).returncode != 0:
-            sys.exit(f"the clients cannot be installed; check that pip can: {' '.join(PACKAGES)}")
-        stamp.write_text("\n".join(PACKAGES))
-    return python
-
-
-def provide_conik(path):
-    """The command, built if its path was not given."""
-    if path is None:
-        subprocess.run(["cargo", "build", "--quiet", "--package", "conik-cli"], cwd=ROOT, check=True)
-        path = TARGET / "debug" / ("conik.exe" if os.name == "nt" else "conik")
-    return path
 
 
 class Emulator:
@@ -126,7 +105,7 @@ def main():
     arguments = parser.parse_args()
 
     conik = provide_conik(arguments.conik)
-    python = provide_packages(arguments.environment)
+    python = provide_packages(arguments.environment, PACKAGES)
     address = own_address()
     # Name, series, command after the address; none where a checkout is missing.
     checkout = arguments.python_rtde

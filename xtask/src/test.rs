@@ -63,6 +63,13 @@ pub fn all() -> Vec<Step> {
             )
         },
         Step {
+            needs: vec![PYTHON],
+            ..command(
+                "exports, read by others",
+                &["python3", "tests/exports/run.py"],
+            )
+        },
+        Step {
             folder: "viewer/src",
             needs: vec![NODE, CHROMIUM],
             ..command("page", &["npm", "--prefix", "..", "run", "test:all"])

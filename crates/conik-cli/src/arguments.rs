@@ -27,6 +27,8 @@ pub enum Command {
     Check(CheckArguments),
     /// Draw the figures of a run again from its log
     Plot(PlotArguments),
+    /// Write a run in the formats of other programs: MCAP for Foxglove, Parquet for tables
+    Export(ExportArguments),
     /// Watch and change a scenario while it runs, or replay one or two runs, in a browser, until Ctrl-C
     View(ViewArguments),
     /// Emulate a Universal Robots controller on its real ports, until Ctrl-C
@@ -189,6 +191,54 @@ pub struct PlotArguments {
     /// Do not print the names of the files written
     #[arg(long, short)]
     pub quiet: bool,
+}
+
+/// What `conik export` writes, for its help.
+const EXPORT_HELP: &str = "\
+Formats:
+  mcap     messages for Foxglove and other programs that read MCAP: frames, joints, the scene, tasks
+  parquet  the log as one table, for pandas, Polars, DuckDB and the like
+
+Exit status: 0 done; 2 bad usage or bad input, or a file cannot be written; 130 stopped with Ctrl-C.";
+
+/// `conik export`
+#[derive(Debug, Args)]
+#[command(after_help = EXPORT_HELP)]
+pub struct ExportArguments {
+    /// A folder that `conik run` wrote
+    #[arg(value_hint = ValueHint::DirPath)]
+    pub dir: PathBuf,
+    /// Which format; may be given more than once [default: what the name after --out ends in, else both]
+    #[arg(long, value_enum, value_name = "FORMAT", hide_possible_values = true)]
+    pub format: Vec<ExportFormat>,
+    /// The file to write; `-` writes to standard output [default: the name of the folder, in it]
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    pub out: Option<PathBuf>,
+    /// No progress line, and no names of the files written
+    #[arg(long, short)]
+    pub quiet: bool,
+}
+
+/// `--format`
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, ValueEnum)]
+pub enum ExportFormat {
+    /// Messages, for Foxglove and its like.
+    Mcap,
+    /// A table.
+    Parquet,
+}
+
+impl ExportFormat {
+    /// Every format.
+    pub const ALL: [Self; 2] = [Self::Mcap, Self::Parquet];
+
+    /// What its files' names end in.
+    pub fn extension(self) -> &'static str {
+        match self {
+            Self::Mcap => "mcap",
+            Self::Parquet => "parquet",
+        }
+    }
 }
 
 /// `conik view`

@@ -1,5 +1,6 @@
-//! The progress line of a run: time, mode, active sets, distance to go.
+//! Progress lines: of a run, its time, mode, active sets and distance to go; of other work, its share.
 
+use std::cell::Cell;
 use std::io::{self, Write};
 use std::time::{Duration, Instant};
 
@@ -112,6 +113,69 @@ impl Progress {
             line += &format!("  mode {number}: {active}");
         }
         line
+    }
+
+    /// Takes the line away.
+    pub fn finish(&self) {
+        if let Some(bar) = &self.bar {
+            bar.finish_and_clear();
+        }
+    }
+}
+
+/// Shows which share of some work is done, on standard error.
+#[derive(Debug)]
+pub struct Share {
+    /// What is being done.
+    what: String,
+    /// `None` under `--quiet`.
+    bar: Option<ProgressBar>,
+    is_terminal: bool,
+    last: Cell<Instant>,
+}
+
+impl Share {
+    /// For work of that name.
+    pub fn new(what: &str, quiet: bool) -> Self {
+        let target = ProgressDrawTarget::stderr();
+        let is_terminal = !target.is_hidden();
+        let bar = (!quiet).then(|| {
+            let bar = ProgressBar::with_draw_target(Some(100), target);
+            if let Ok(style) = ProgressStyle::with_template("{bar:10} {percent} % of {wide_msg}") {
+                bar.set_style(style.progress_chars("━╸─"));
+            }
+            bar
+        });
+        Self {
+            what: what.to_owned(),
+            bar,
+            is_terminal,
+            last: Cell::new(Instant::now()),
+        }
+    }
+
+    /// Shows that a share of 1 is done, if it is time to.
+    pub fn show(&self, done: f64) {
+        let Some(bar) = &self.bar else { return };
+        let every = if self.is_terminal {
+            EVERY
+        } else {
+            EVERY_WITHOUT_TERMINAL
+        };
+        if self.last.get().elapsed() < every {
+            return;
+        }
+        self.last.set(Instant::now());
+        // Between 0 and 100.
+        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
+        let percent = (100.0 * done.clamp(0.0, 1.0)) as u64;
+        if self.is_terminal {
+            bar.set_message(self.what.clone());
+            bar.set_position(percent);
+        } else {
+            // Nobody may be reading: the work goes on all the same.
+            let _ = writeln!(io::stderr(), "{percent} % of {}", self.what);
+        }
     }
 
     /// Takes the line away.

@@ -7,6 +7,7 @@ mod command {
     mod default_rules;
     mod documents;
     mod explain;
+    mod export;
     mod gallery;
     mod gallery_pages;
     mod live;

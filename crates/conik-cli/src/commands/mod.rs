@@ -3,6 +3,7 @@
 pub mod check;
 pub mod completions;
 pub mod emulate;
+pub mod export;
 pub mod init;
 pub mod plot;
 pub mod preflight;

@@ -80,11 +80,7 @@ impl Run {
 
     /// As [`Run::load`], with those columns of the log that `keep` names.
     pub fn load_columns(dir: &Path, keep: impl Fn(&str) -> bool) -> Result<Self, RunError> {
-        let path = dir.join("summary.json");
-        let summary = match File::open(&path) {
-            Ok(file) => read_summary(file, LARGEST_SUMMARY, path)?,
-            Err(source) => return Err(RunError::Read { path, source }),
-        };
+        let summary = load_summary(dir)?;
         let path = dir.join("log.csv");
         let log = Log::load_columns(&path, keep)?;
         if log.is_empty() {
@@ -245,6 +241,15 @@ fn joints_that_slide(summary: &Summary) -> Joints {
 /// Whether the task is set-based.
 pub fn is_set(task: &TaskConfig) -> bool {
     matches!(task.goal, GoalConfig::Set { .. })
+}
+
+/// Reads `summary.json` in the folder `dir`.
+pub fn load_summary(dir: &Path) -> Result<Summary, RunError> {
+    let path = dir.join("summary.json");
+    match File::open(&path) {
+        Ok(file) => read_summary(file, LARGEST_SUMMARY, path),
+        Err(source) => Err(RunError::Read { path, source }),
+    }
 }
 
 /// Reads no more than what a summary may have, so that an endless file has an end.

@@ -1,0 +1,30 @@
+"""What the tests in Python need: an environment with packages, and the command `conik`."""
+import os
+import subprocess
+import sys
+import venv
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent
+TARGET = Path(os.environ.get("CARGO_TARGET_DIR", ROOT / "target"))
+
+
+def provide_packages(folder, packages):
+    """The Python of an environment with the packages; installs them if need be."""
+    python = folder / ("Scripts/python.exe" if os.name == "nt" else "bin/python")
+    stamp = folder / "installed"
+    if not stamp.exists() or stamp.read_text().split() != packages:
+        venv.create(folder, with_pip=True, clear=True)
+        install = [python, "-m", "pip", "install", "--quiet", "--disable-pip-version-check"]
+        if subprocess.run([*install, *packages]).returncode != 0:
+            sys.exit(f"packages cannot be installed; check that pip can: {' '.join(packages)}")
+        stamp.write_text("\n".join(packages))
+    return python
+
+
+def provide_conik(path):
+    """The command, built if its path was not given."""
+    if path is None:
+        subprocess.run(["cargo", "build", "--quiet", "--package", "conik-cli"], cwd=ROOT, check=True)
+        path = TARGET / "debug" / ("conik.exe" if os.name == "nt" else "conik")
+    return path
