@@ -22,6 +22,8 @@ export interface Recording {
 export interface RecordedRun {
   name: string;
   scene: Scene;
+  /** The scenes after changes that people made, each with `from_s` and without its robot. */
+  later?: Scene[];
   ticks: Ticks;
 }
 

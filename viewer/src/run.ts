@@ -64,9 +64,10 @@ export class Run {
   private why: number[] = [];
   private called: (number | null)[] = [];
 
-  constructor({ name, scene, ticks }: RecordedRun, private readonly colours: ModeColours) {
+  constructor({ name, scene, later = [], ticks }: RecordedRun, private readonly colours: ModeColours) {
     this.name = name;
     this.scenes = new History(scene);
+    for (const { from_s = 0, ...changed } of later) this.change({ ...changed, robot: scene.robot }, from_s);
     this.add(ticks);
   }
 

@@ -48,6 +48,7 @@ pub fn summary(summary: &Summary, experiment: &Experiment) -> String {
     }
     [
         outcome(summary),
+        changes(summary),
         waypoints(summary),
         tasks(summary),
         properties(summary),
@@ -74,6 +75,18 @@ fn outcome(summary: &Summary) -> String {
         }
         Outcome::Fault { name, .. } => format!("stopped {when} by a fault: {name}\n"),
     }
+}
+
+/// That people changed the run, if they did.
+fn changes(summary: &Summary) -> String {
+    let first = summary.changes.iter().find_map(|change| change.t_s);
+    first.map_or(String::new(), |t_s| {
+        let times = summary.changes.len();
+        wrapped(
+            "  ",
+            &format!("changed while it ran: {times} x, at first at {t_s} s; bounds below are those from before"),
+        )
+    })
 }
 
 fn waypoints(summary: &Summary) -> String {

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
 
 use crate::cycle_times::CycleSummary;
-use crate::live::Change;
+use crate::live::{Change, ChangeError};
 use crate::monitors::Monitors;
 use crate::scenario::Scenario;
 
@@ -72,6 +72,29 @@ pub struct ChangeMade {
 }
 
 impl ChangeMade {
+    /// The scenario in force after each of these, which were made one after the other, and since when [s];
+    /// `first` is that from before.
+    ///
+    /// # Errors
+    ///
+    /// If one of them does not fit what was there.
+    pub fn scenarios(
+        changes: &[Self],
+        first: &Scenario,
+    ) -> Result<Vec<(f64, Scenario)>, ChangeError> {
+        let mut scenarios: Vec<(f64, Scenario)> = Vec::new();
+        for Self { t_s, changes } in changes {
+            let from_s = t_s.unwrap_or_default();
+            let present = scenarios.last().map_or(first, |(_, scenario)| scenario);
+            let changed = match changes.as_slice() {
+                [] => first.clone(),
+                changes => present.changed(changes, from_s)?.0,
+            };
+            scenarios.push((from_s, changed));
+        }
+        Ok(scenarios)
+    }
+
     /// These changes.
     pub fn of(changes: Vec<Change>) -> Self {
         Self { t_s: None, changes }

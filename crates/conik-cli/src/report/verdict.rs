@@ -1,6 +1,6 @@
 //! The verdict in a sentence: what was run, on which arm, how it ended, what was reached when.
 
-use conik_sim::summary::Outcome;
+use conik_sim::summary::{ChangeMade, Outcome};
 
 use crate::figure::Run;
 use crate::figure::lettering::{number, seconds};
@@ -23,12 +23,30 @@ pub fn banner(run: &Run) -> String {
             .to_owned(),
         Outcome::Completed | Outcome::Interrupted => String::new(),
     };
+    notes.push_str(&changes(&summary.changes));
     if run.log().is_truncated() {
         notes.push_str("<p>The last line of the log was cut off and is left out.</p>\n");
     }
     format!(
         "<div class=\"verdict {class}\" role=\"status\">\n<p>{}</p>\n{notes}</div>\n",
         sentence(run)
+    )
+}
+
+/// That people changed the run, if they did.
+fn changes(changes: &[ChangeMade]) -> String {
+    let Some(first) = changes.iter().find_map(|change| change.t_s) else {
+        return String::new();
+    };
+    let times = match changes.len() {
+        1 => "once".to_owned(),
+        times => format!("{times} times, at first"),
+    };
+    format!(
+        "<p>What was asked was changed {times} at {}, by people who watched. Figures and tables have tasks \
+         and obstacles as they were before; <code>conik view</code> shows them as they were at each \
+         time.</p>\n",
+        seconds(first)
     )
 }
 

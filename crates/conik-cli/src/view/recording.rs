@@ -3,6 +3,8 @@
 use std::path::{Path, PathBuf};
 
 use conik_sim::experiment::ExperimentError;
+use conik_sim::live::ChangeError;
+use conik_sim::summary::ChangeMade;
 use serde::Serialize;
 
 use super::PROTOCOL;
@@ -23,7 +25,17 @@ struct RecordedRun {
     /// Name of its folder.
     name: String,
     scene: Scene,
+    /// The scenes after changes that people made.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    later: Vec<LaterScene>,
     ticks: Ticks,
+}
+
+#[derive(Clone, Debug, PartialEq, Serialize)]
+struct LaterScene {
+    from_s: f64,
+    #[serde(flatten)]
+    scene: Scene,
 }
 
 /// Why a run cannot be shown.
@@ -39,6 +51,14 @@ pub enum ViewError {
         dir: PathBuf,
         /// What does not fit.
         source: Box<ExperimentError>,
+    },
+    /// What was changed while it ran does not fit what was run.
+    #[error("{}: the changes in its summary do not fit its scenario", dir.display())]
+    Changes {
+        /// The folder.
+        dir: PathBuf,
+        /// Why not.
+        source: ChangeError,
     },
 }
 
@@ -61,6 +81,7 @@ impl Recording {
             runs: vec![RecordedRun {
                 name: name.to_owned(),
                 scene,
+                later: Vec::new(),
                 ticks,
             }],
         }
@@ -76,15 +97,32 @@ impl Recording {
 impl RecordedRun {
     fn load(dir: &Path) -> Result<Self, ViewError> {
         let run = Run::load_columns(dir, |_| true)?;
-        let scene = Scene::of_run(run.summary()).map_err(|source| ViewError::Scenario {
+        let summary = run.summary();
+        let unready = |source| ViewError::Scenario {
             dir: dir.to_owned(),
             source: Box::new(source),
+        };
+        let scene = Scene::of_run(summary).map_err(unready)?;
+        let (settings, changes) = (&summary.settings, &summary.changes);
+        let later = ChangeMade::scenarios(changes, &settings.scenario);
+        let later = later.map_err(|source| ViewError::Changes {
+            dir: dir.to_owned(),
+            source,
         })?;
+        let later = later.iter().map(|(from_s, scenario)| {
+            let scene = Scene::new(scenario, &settings.robot)?;
+            Ok(LaterScene {
+                from_s: *from_s,
+                scene: scene.without_robot(),
+            })
+        });
+        let later = later.collect::<Result<_, _>>().map_err(unready)?;
         let name = dir.canonicalize().unwrap_or(dir.to_owned());
         let name = name.file_name().unwrap_or(dir.as_os_str());
         Ok(Self {
             name: name.to_string_lossy().into_owned(),
             scene,
+            later,
             ticks: Ticks::of(run.log(), MOST_ROWS),
         })
     }

@@ -118,7 +118,7 @@ impl Scene {
         }
     }
 
-    fn new(scenario: &Scenario, arm: &str) -> Result<Self, ExperimentError> {
+    pub(super) fn new(scenario: &Scenario, arm: &str) -> Result<Self, ExperimentError> {
         let experiment = Experiment::new(scenario)?;
         let stack = experiment.controller.stack();
         let configs = scenario.all_tasks();

@@ -217,6 +217,14 @@ fn watched_run_writes_what_was_changed_and_stays_until_it_is_interrupted() {
     );
     watched.process.signal("INT");
     assert_eq!(watched.process.wait().status, Some(0));
+    // A replay has the task as it then was.
+    let replayed = Watched::start(&folder, "view --quiet out");
+    let recording = replayed.recording();
+    let later = &recording["runs"][0]["later"];
+    assert_eq!(later.as_array().unwrap().len(), 1);
+    assert_eq!(later[0]["from_s"], told["changes"][0]["t_s"]);
+    assert_eq!(later[0]["tasks"][3]["gain_per_s"], 0.6);
+    assert_eq!(recording["runs"][0]["scene"]["tasks"][3]["gain_per_s"], 0.3);
 }
 
 #[test]

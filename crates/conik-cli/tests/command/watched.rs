@@ -48,6 +48,19 @@ impl Watched {
         Self::start(&folder, &format!("view --quiet {}", scenario.display()))
     }
 
+    /// What `/recording.json` has.
+    pub fn recording(&self) -> Value {
+        let mut stream = TcpStream::connect(&self.host).unwrap();
+        let head = format!(
+            "GET /recording.json HTTP/1.1\r\nHost: {}\r\nConnection: close\r\n\r\n",
+            self.host
+        );
+        stream.write_all(head.as_bytes()).unwrap();
+        let mut answer = String::new();
+        stream.read_to_string(&mut answer).unwrap();
+        serde_json::from_str(answer.split_once("\r\n\r\n").unwrap().1).unwrap()
+    }
+
     pub fn handshake(&self, headers: &[&str]) -> (TcpStream, String) {
         let mut stream = TcpStream::connect(&self.host).unwrap();
         stream.set_read_timeout(Some(SILENT)).unwrap();
