@@ -70,6 +70,10 @@ pub fn all() -> Vec<Step> {
             )
         },
         Step {
+            needs: vec![PYTHON],
+            ..command("examples in Python", &["python3", "tests/examples/run.py"])
+        },
+        Step {
             folder: "viewer/src",
             needs: vec![NODE, CHROMIUM],
             ..command("page", &["npm", "--prefix", "..", "run", "test:all"])
