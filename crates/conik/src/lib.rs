@@ -76,6 +76,7 @@ mod limits;
 mod linalg;
 mod mode;
 mod monitor;
+mod ranges;
 mod real;
 mod reason;
 mod restless;

@@ -3,6 +3,9 @@
 //! A velocity that exceeds a limit is shortened as a whole, towards one that keeps every set (its
 //! [`Anchor`](crate::anchor::Anchor)): what lies between two velocities that keep a set keeps it too,
 //! while clamping single joints would turn J q̇ out of its cone. Sets come before accelerations.
+//!
+//! With rule `Cone` and limited accelerations each level is chosen within the limits instead
+//! ([`Ranges`](crate::ranges::Ranges)): shortening the whole velocity would leave the equality tasks.
 
 use alloc::vec::Vec;
 
@@ -15,7 +18,9 @@ pub struct Shortened {
     /// Index of the joint.
     pub joint: usize,
     /// What is left of the way from the anchor to the velocity asked for, in [0, 1). Where standing
-    /// still keeps every set and accelerations are not limited, the factor on the whole velocity.
+    /// still keeps every set and accelerations are not limited, the factor on the whole velocity. With
+    /// rule `Cone` and limited accelerations, what this joint has left of the way that the first level
+    /// which was cut short asks of it.
     pub factor: f64,
 }
 
@@ -64,6 +69,12 @@ impl Limits {
         self.speed_change.is_some()
     }
 
+    /// Greatest change of a joint's speed in a period, infinite where there is none.
+    pub(crate) fn speed_change(&self, joint: usize) -> f64 {
+        let changes = self.speed_change.as_ref();
+        changes.map_or(f64::INFINITY, |changes| changes[joint])
+    }
+
     /// Least and greatest speed of a joint, and whether the acceleration is asked too.
     pub(crate) fn range(&self, joint: usize, before: Option<&[f64]>) -> (f64, f64) {
         let speed = self.speed[joint];
@@ -85,15 +96,7 @@ impl Limits {
     ) {
         let dof = self.speed.len();
         for joint in 0..dof {
-            let (least, greatest) = self.range(joint, before);
-            for (sign, bound) in [(1.0, least), (-1.0, -greatest)] {
-                if bound.is_finite() {
-                    let start = rows.len();
-                    rows.resize(start + dof, 0.0);
-                    rows[start + joint] = sign;
-                    bounds.push(bound);
-                }
-            }
+            push_range(dof, joint, self.range(joint, before), rows, bounds);
         }
     }
 
@@ -129,12 +132,30 @@ impl Limits {
     }
 }
 
+/// The range of a joint as rows a q̇ ≥ b, one for each end that is finite.
+pub(crate) fn push_range(
+    dof: usize,
+    joint: usize,
+    (least, greatest): (f64, f64),
+    rows: &mut Vec<f64>,
+    bounds: &mut Vec<f64>,
+) {
+    for (sign, bound) in [(1.0, least), (-1.0, -greatest)] {
+        if bound.is_finite() {
+            let start = rows.len();
+            rows.resize(start + dof, 0.0);
+            rows[start + joint] = sign;
+            bounds.push(bound);
+        }
+    }
+}
+
 /// Rounding is not an exceeded limit.
 const ROUNDING: f64 = 1e-9;
 
 /// v ← anchor + f (v − anchor) with the largest f ≤ 1 that brings every joint into its range. A joint
 /// of which not even the anchor is in range decides nothing but that.
-fn shorten(
+pub(crate) fn shorten(
     qd: &mut [f64],
     anchor: &[f64],
     range: impl Fn(usize) -> (f64, f64),

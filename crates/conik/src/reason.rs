@@ -51,9 +51,11 @@ pub enum Reason {
         /// Directions lost, or about to be.
         directions: usize,
     },
-    /// The whole velocity was shortened to a joint's speed limit.
+    /// The whole velocity, or with rule `Cone` and limited accelerations that of a level, was shortened to a
+    /// joint's speed limit.
     SpeedLimit(Shortened),
-    /// The whole change of velocity was shortened to a joint's acceleration limit.
+    /// A change of velocity was shortened to a joint's acceleration limit: with rule `Cone` that of a level,
+    /// else the whole.
     AccelerationLimit(Shortened),
     /// A joint accelerated beyond its limit for the sake of a set.
     AccelerationExceeded(Exceeded),
@@ -243,7 +245,7 @@ impl fmt::Display for Words<'_> {
                 write!(f, "the whole velocity is shortened to {:.1} % for the speed limit of joint {}", 100.0 * factor, joint + 1)
             }
             Reason::AccelerationLimit(Shortened { joint, factor }) => {
-                write!(f, "the change of velocity is shortened to {:.1} % for the acceleration limit of joint {}", 100.0 * factor, joint + 1)
+                write!(f, "a change of velocity is shortened to {:.1} % for the acceleration limit of joint {}", 100.0 * factor, joint + 1)
             }
             Reason::AccelerationExceeded(Exceeded { joint, times }) => {
                 write!(f, "joint {} accelerates at {times:.2} times its limit, because a set could not be kept otherwise", joint + 1)

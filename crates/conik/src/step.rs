@@ -23,9 +23,11 @@ pub struct Step {
     pub qdd: JointVec,
     /// Joint positions q_ref = q + T q̇_ref [rad or m], for the end of this period.
     pub q_ref: JointVec,
-    /// The joint for whose speed limit the whole velocity was shortened; `None` if it was not.
+    /// The joint for whose speed limit the whole velocity was shortened, or with rule `Cone` and limited
+    /// accelerations that of a level; `None` if none was.
     pub speed_limit: Option<Shortened>,
-    /// The joint for whose acceleration limit the whole change of velocity was shortened.
+    /// The joint for whose acceleration limit a change of velocity was shortened: with rule `Cone` that of a
+    /// level, else the whole.
     pub acceleration_limit: Option<Shortened>,
     /// The joint whose acceleration is furthest beyond its limit, for the sake of a set.
     pub acceleration_exceeded: Option<Exceeded>,

@@ -7,10 +7,10 @@ use std::cell::Cell;
 
 use conik::{
     Axis, Border, Capsule, Controller, Coordinate, Cuboid, Cylinder, DhRow, Distance, Elbow,
-    FieldOfView, Frame, FramePose, HalfSpace, JacobianPart, JointPosition, JointSpeed, JointVec,
-    LookAt, Manipulability, ModeRule, Orientation, OrientationAngle, Plane, PointingAngle, Pose,
-    Position, Posture, Recursion, Robot, Settings, Shape, ShapeDistance, SmallestSingularValue,
-    Stack, StackError, Vec3,
+    FieldOfView, Frame, FramePose, HalfSpace, JacobianPart, JointLimits, JointPosition, JointSpeed,
+    JointVec, LookAt, Manipulability, ModeRule, Orientation, OrientationAngle, Plane,
+    PointingAngle, Pose, Position, Posture, Recursion, Robot, Settings, Shape, ShapeDistance,
+    SmallestSingularValue, Stack, StackError, Vec3,
 };
 use paper::Example;
 
@@ -70,11 +70,12 @@ fn all_settings() -> Vec<Settings> {
 
 /// Nine joints, two sets on each of them, walls and an obstacle, and four levels below, one of them a
 /// set.
-fn large(settings: Settings) -> Controller {
+fn large(settings: Settings, limits: JointLimits) -> Controller {
     let rows: Vec<DhRow> = (0..9_u8)
         .map(|i| DhRow::new(0.15, f64::from(i % 3) - 1.0, 0.05))
         .collect();
     let robot = Robot::from_dh("nine", &rows).expect("sound");
+    let robot = robot.with_limits(|_, _| limits).expect("sound");
     let mut stack = Stack::new(&robot);
     let mut fill = || -> Result<(), StackError> {
         for i in 0..9 {
@@ -194,13 +195,22 @@ fn no_tick_allocates() {
         for number in 1..=3 {
             assert!(run_example(number, settings) >= 1, "sets were active");
         }
-        let mut on_demand = large(settings);
+        let unlimited = JointLimits::default();
+        let limited = JointLimits {
+            speed: Some(2.0),
+            acceleration: Some(20.0),
+            position: None,
+        };
+        let mut on_demand = large(settings, unlimited);
         on_demand.measure_on_demand();
-        let controllers = [
-            (large(settings), 2),
+        let mut controllers = vec![
+            (large(settings, unlimited), 2),
             (on_demand, 2),
             (of_all_types(settings), 1),
         ];
+        if settings.mode_rule == ModeRule::Cone {
+            controllers.push((large(settings, limited), 1));
+        }
         for (controller, least) in controllers {
             let active = run_large(controller, settings);
             assert!(active >= least, "{active} sets were active, {settings:?}");

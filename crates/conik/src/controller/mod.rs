@@ -16,6 +16,7 @@ use crate::landing::{Approach, Landed, Landing};
 use crate::limits::Limits;
 use crate::linalg::{add_scaled, copy, not_finite, scaled_difference};
 use crate::mode::{ModeSearch, Nearest, NearestTick};
+use crate::ranges::{Cut, Ranges};
 use crate::robot::Robot;
 use crate::settings::{Border, ModeRule, Settings};
 use crate::stack::{Setpoints, Stack};
@@ -48,6 +49,7 @@ pub struct Controller {
     barrier: Barrier,
     anchor: Anchor,
     limits: Limits,
+    ranges: Ranges,
     rule: Rule,
     landing: Landing,
     /// Where the last tick left values that were not needed unmeasured.
@@ -169,6 +171,7 @@ impl Controller {
             barrier: Barrier::new(&stack, &settings, limits.accelerations()),
             anchor: Anchor::new(stack.dof(), 2 * stack.len()),
             limits,
+            ranges: Ranges::new(robot.dof()),
             rule: match settings.mode_rule {
                 ModeRule::Paper | ModeRule::Border => {
                     Rule::Search(Box::new(ModeSearch::new(&stack, &settings)))
@@ -213,12 +216,9 @@ impl Controller {
         if let Some(joint) = not_finite(&self.qd) {
             return Err(StepError::VelocityNotFinite { joint });
         }
-        let anchor = self.anchor.velocity();
-        let speed_limit = self.limits.shorten_to_speed(&mut self.qd, anchor);
-        let acceleration_limit =
-            self.limits
-                .shorten_to_acceleration(&mut self.qd, anchor, &self.step.qd);
-        let is_shortened = speed_limit.is_some() || acceleration_limit.is_some();
+        let cut = self.shorten();
+        let is_shortened = cut.is_some();
+        let cut = cut.unwrap_or_default();
         let landed = self.arrive(q, &proposal, is_shortened, &mut pivots);
 
         let was_active = self.step.active;
@@ -232,8 +232,8 @@ impl Controller {
         }
         copy(&mut step.q_ref, &self.q_ref);
         copy(&mut step.qd, &self.qd);
-        step.speed_limit = speed_limit;
-        step.acceleration_limit = acceleration_limit;
+        step.speed_limit = cut.by_speed;
+        step.acceleration_limit = cut.by_acceleration;
         step.no_mode = proposal.active.is_none();
         step.active = proposal.active.unwrap_or_default();
         step.modes_evaluated = proposal.modes_evaluated;
@@ -289,11 +289,17 @@ impl Controller {
                 }
             }
             Rule::Nearest(nearest) => {
+                let is_limited = self.limits.has_acceleration();
+                if is_limited {
+                    self.ranges
+                        .set(&self.limits, &self.step.qd, self.anchor.velocity());
+                }
                 let mut tick = NearestTick {
                     stack: &self.stack,
                     evaluation: &mut self.here,
                     barrier: &mut self.barrier,
                     borders: &self.borders,
+                    ranges: is_limited.then_some(&self.ranges),
                     pivots,
                 };
                 Proposal {
@@ -302,6 +308,22 @@ impl Controller {
                 }
             }
         }
+    }
+
+    /// Brings the velocity within the limits of the joints, if the rule has not. `None` if it asked for
+    /// nothing beyond them.
+    fn shorten(&mut self) -> Option<Cut> {
+        if let (Rule::Nearest(nearest), true) = (&self.rule, self.limits.has_acceleration()) {
+            return nearest.cut();
+        }
+        let (qd, anchor) = (&mut self.qd, self.anchor.velocity());
+        let cut = Cut {
+            by_speed: self.limits.shorten_to_speed(qd, anchor),
+            by_acceleration: self
+                .limits
+                .shorten_to_acceleration(qd, anchor, &self.step.qd),
+        };
+        (cut.by_speed.is_some() || cut.by_acceleration.is_some()).then_some(cut)
     }
 
     /// q_ref = q + T q̇; with border `Land`, after changing q̇ until that is inside every set entered.

@@ -27,6 +27,14 @@ pub(super) enum Asks {
     Nothing,
 }
 
+/// What the levels above have chosen.
+pub(super) struct Above<'a> {
+    /// Their velocity, where accelerations are limited without regard to that [rad/s].
+    pub(super) velocity: &'a [f64],
+    /// What it is within the joints' ranges; `None` if it is the same.
+    pub(super) within: Option<&'a [f64]>,
+}
+
 #[derive(Debug)]
 pub(super) struct Asked {
     rates: Vec<f64>,
@@ -46,13 +54,12 @@ impl Asked {
         &self.rates
     }
 
-    /// What a level asks for after `velocity`, that of the levels above. `held` are the sides that were
-    /// held in the last tick.
+    /// What a level asks for after the levels above. `held` are the sides that were held in the last tick.
     pub(super) fn ask(
         &mut self,
         tick: &mut NearestTick<'_>,
         task: TaskId,
-        velocity: &[f64],
+        above: &Above<'_>,
         held: &Held,
     ) -> Asks {
         self.rates.clear();
@@ -67,7 +74,7 @@ impl Asked {
                     .extend(components.map(|((error, rate), drift)| rate + gain * error - drift));
                 Asks::Always
             }
-            Goal::Set { .. } => self.ask_of_set(tick, task, velocity, held),
+            Goal::Set { .. } => self.ask_of_set(tick, task, above, held),
         }
     }
 
@@ -75,14 +82,16 @@ impl Asked {
         &mut self,
         tick: &mut NearestTick<'_>,
         task: TaskId,
-        velocity: &[f64],
+        above: &Above<'_>,
         held: &Held,
     ) -> Asks {
         let Goal::Set { interval, gain, .. } = tick.stack[task].goal() else {
             return Asks::Nothing;
         };
         let (sigma, drift) = (tick.evaluation.scalar(task), tick.evaluation.drift(task));
-        let rate = dot(tick.evaluation.jacobian(tick.stack, task), velocity);
+        let row = tick.evaluation.jacobian(tick.stack, task);
+        let rate = dot(row, above.velocity);
+        let rate_within = above.within.map_or(rate, |within| dot(row, within));
         for side in Side::both(task) {
             let (inside, rate) = (side.inside(interval, sigma), side.inward(rate));
             let approaching = side.inward(tick.borders.bound_rate(side) - drift);
@@ -100,8 +109,9 @@ impl Asked {
                 return Asks::At { side, leaving };
             }
             if kept > f64::NEG_INFINITY {
+                let had = rate.min(side.inward(rate_within));
                 tick.barrier
-                    .push(tick.stack, tick.evaluation, side, kept.min(rate));
+                    .push(tick.stack, tick.evaluation, side, kept.min(had));
             }
         }
         Asks::Nothing

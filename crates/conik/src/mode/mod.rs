@@ -12,6 +12,7 @@ mod nearest;
 mod order;
 mod search;
 mod tremor;
+mod within;
 
 pub(crate) use nearest::{Nearest, NearestTick};
 pub use order::ModeOrder;

@@ -15,15 +15,17 @@
 
 use alloc::vec::Vec;
 
-use super::asked::{Asked, Asks};
+use super::asked::{Above, Asked, Asks};
 use super::claims::{Claims, Turn};
 use super::level::{Level, LevelProgram};
 use super::tremor::Tremor;
+use super::within::{self, Within};
 use crate::active::ActiveSet;
 use crate::barrier::Barrier;
 use crate::border::Borders;
 use crate::evaluation::Evaluation;
 use crate::linalg::{Solution, clear, copy, dot};
+use crate::ranges::{Cut, Ranges};
 use crate::settings::{Recursion, Settings};
 use crate::sides::{Held, Side, Sides};
 use crate::stack::Stack;
@@ -54,6 +56,7 @@ pub(crate) struct Nearest {
     unmet: Vec<f64>,
     returning: Vec<usize>,
     tremor: Tremor,
+    within: Within,
     /// How fast each side would be left if it were let go [unit/s].
     crossings: Vec<f64>,
     /// Directions that each lower level has lost.
@@ -68,6 +71,8 @@ pub(crate) struct NearestTick<'a> {
     /// What the high-priority sets allow. Low-priority ones that are kept add to it.
     pub(crate) barrier: &'a mut Barrier,
     pub(crate) borders: &'a Borders,
+    /// The joints' ranges, where accelerations are limited.
+    pub(crate) ranges: Option<&'a Ranges>,
     pub(crate) pivots: &'a mut usize,
 }
 
@@ -113,6 +118,7 @@ impl Nearest {
             unmet: Vec::with_capacity(max_rows),
             returning: Vec::with_capacity(2 * stack.len()),
             tremor,
+            within: Within::new(stack, max_rows),
             crossings: alloc::vec![0.0; 2 * stack.len()],
             tasks: stack.len(),
         }
@@ -126,10 +132,17 @@ impl Nearest {
         self.crossings.fill(0.0);
         self.lost.fill(0);
         clear(velocity);
+        if let Some(ranges) = tick.ranges {
+            self.within.begin(ranges);
+        }
         let mut level_above: Option<usize> = None;
         for place in 0..self.lower.len() {
             let task = self.lower[place];
-            match self.asked.ask(tick, task, velocity, &self.held_before) {
+            let above = Above {
+                velocity,
+                within: tick.ranges.map(|_| self.within.velocity()),
+            };
+            match self.asked.ask(tick, task, &above, &self.held_before) {
                 Asks::Always => {}
                 Asks::At { side, leaving } => {
                     self.held.insert(side);
@@ -143,6 +156,10 @@ impl Nearest {
             }
             self.descend(tick, place, velocity);
         }
+        if let Some(ranges) = tick.ranges {
+            self.within
+                .finish(tick.barrier, ranges, velocity, tick.pivots);
+        }
         self.keep_what_does_not_leave(tick.barrier, velocity);
         self.held.tasks().union(&self.low_active)
     }
@@ -150,6 +167,11 @@ impl Nearest {
     /// How fast a side would be left if it were let go [unit/s]; 0 if it would not.
     pub(crate) fn crossing(&self, side: Side) -> f64 {
         self.crossings[side.number()]
+    }
+
+    /// The joints whose ranges cut a level short, and with it this tick; `None` if none was.
+    pub(crate) fn cut(&self) -> Option<Cut> {
+        self.within.cut()
     }
 
     /// The levels that have lost directions, and how many.
@@ -180,6 +202,20 @@ impl Nearest {
             self.remember(place, &tick.barrier.sides);
             self.lost[place] = self.program.lost();
         }
+        self.take_unmet(tick, place, velocity);
+        if let (Some(ranges), Solution::Optimal) = (tick.ranges, solution) {
+            let turn = within::Turn {
+                jacobian: tick.evaluation.known_jacobian(self.lower[place]),
+                above: &self.above,
+                barrier: tick.barrier,
+                ranges,
+            };
+            self.within.follow(&turn, velocity, tick.pivots);
+        }
+    }
+
+    /// What a level does not get of what it asks. Limits of joints take nothing for good, and do not count.
+    fn take_unmet(&mut self, tick: &NearestTick<'_>, place: usize, velocity: &[f64]) {
         if place + 1 == self.lower.len() {
             return;
         }
