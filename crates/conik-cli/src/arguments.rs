@@ -87,6 +87,10 @@ pub struct RunArguments {
     /// No progress line and no summary; errors are printed all the same
     #[arg(long, short)]
     pub quiet: bool,
+    /// Show the run in this terminal while it goes on: tasks, modes and joints. `q` stops it, `?` tells the
+    /// other keys; when it has ended, `q` leaves
+    #[arg(long, conflicts_with = "view")]
+    pub tui: bool,
     /// With `--robot HOST`: begin where the arm stands, whatever start the scenario has: to go on
     /// after a stop
     #[arg(long)]

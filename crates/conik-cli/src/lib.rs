@@ -2,4 +2,5 @@
 pub mod export;
 pub mod figure;
 pub mod report;
+pub mod tui;
 pub mod view;

@@ -20,6 +20,7 @@ mod command {
     mod run_folder;
     mod small_commands;
     mod strangers;
+    mod terminal;
     mod trouble;
     mod urdf;
     mod view;

@@ -1,5 +1,6 @@
 //! The arm that a run drives: an ideal one, an emulated one, or one at a host.
 
+use conik_cli::tui::Warnings;
 use conik_sim::arm::{Arm, IdealArm};
 use conik_sim::experiment::Experiment;
 use conik_sim::scenario::{Scenario, UrModel};
@@ -21,10 +22,12 @@ pub struct Driven {
 }
 
 /// The arm of these arguments, which stands where the experiment begins if it exists in this program only.
+/// With `--tui`, what it warns of is noted in `warnings`.
 pub(super) fn arm(
     arguments: &RunArguments,
     scenario: &Scenario,
     experiment: &Experiment,
+    warnings: &Warnings,
 ) -> Result<Driven, Failure> {
     let rate_hz = scenario.control.rate_hz;
     if arguments.robot != "ideal" {
@@ -103,7 +106,14 @@ pub(super) fn arm(
             if arguments.power_on {
                 power_on(&config, &mut recover::say).map_err(Failure::run)?;
             }
-            (Box::new(UrArm::new(config).warning(warn)), None)
+            let arm = UrArm::new(config);
+            let arm = if arguments.tui {
+                let warnings = warnings.clone();
+                arm.warning(move |text| warnings.note(text))
+            } else {
+                arm.warning(warn)
+            };
+            (Box::new(arm), None)
         }
     };
     Ok(Driven {

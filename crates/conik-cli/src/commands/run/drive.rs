@@ -4,6 +4,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{self, SyncSender, TrySendError};
 use std::thread;
 
+use conik_cli::tui::Tui;
 use conik_cli::view::live::Live;
 use conik_sim::arm::{Arm, ArmError};
 use conik_sim::live::Stretch;
@@ -29,6 +30,8 @@ pub(super) struct Listeners<'a> {
     pub(super) progress: Progress,
     /// Those who watch, and may change what is run.
     pub(super) live: Option<&'a Live>,
+    /// The view in this terminal.
+    pub(super) tui: Option<&'a Tui>,
 }
 
 /// A run that has ended, and what was made of its records.
@@ -56,6 +59,7 @@ pub(super) fn drive(
         mut explanations,
         mut progress,
         live,
+        tui,
     } = listeners;
     let (sender, records) = mpsc::sync_channel(RECORDS_WAITING);
     let mut written = Ok(());
@@ -87,6 +91,9 @@ pub(super) fn drive(
             summariser.take(&record);
             if let Some(live) = live {
                 live.take(&record);
+            }
+            if let Some(tui) = tui {
+                tui.take(&record);
             }
             explanations.take(&record);
             progress.show(&record, summariser.present_mode());

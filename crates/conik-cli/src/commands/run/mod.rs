@@ -13,6 +13,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use conik_cli::report;
+use conik_cli::tui::{self, Tui, Warnings};
 use conik_cli::view::live::Live;
 use conik_sim::experiment::Experiment;
 use conik_sim::live::Stretch;
@@ -37,6 +38,9 @@ const INTERRUPTED: u8 = 130;
 
 /// Runs the scenario and, if it is to be watched, shows it until Ctrl-C.
 pub fn run(arguments: &RunArguments) -> Result<ExitCode, Failure> {
+    if arguments.tui {
+        Tui::check().map_err(Failure::input)?;
+    }
     let mut scenario = Scenario::load(&arguments.scenario)?;
     arguments.overrides.apply(&mut scenario)?;
     let stop = stop_on_ctrl_c()?;
@@ -69,7 +73,8 @@ fn run_once(
     let mut experiment = experiment.map_err(Failure::input)?;
     experiment.from_here = arguments.from_here;
     let explanations = Explanations::new(&arguments.explain, &experiment)?;
-    let mut driven = arm::arm(arguments, scenario, &experiment)?;
+    let warnings = Warnings::default();
+    let mut driven = arm::arm(arguments, scenario, &experiment, &warnings)?;
     let out = out_dir(arguments);
     make_folder(&out)?;
     let log = LogWriter::create(&out.join("log.csv"), experiment.controller.stack())
@@ -85,21 +90,31 @@ fn run_once(
     if !arguments.quiet {
         super::print(&present::heading(scenario, &driven.arm.describe()))?;
     }
+    let tui = if arguments.tui {
+        let scene = tui::Scene::new(scenario, &experiment, &driven.arm.describe());
+        Some(Tui::start(scene, warnings.clone(), stop).map_err(Failure::input)?)
+    } else {
+        None
+    };
     let listeners = Listeners {
         log,
         summariser: Summariser::new(experiment.controller.stack(), experiment.waypoint_count()),
         explanations,
-        progress: Progress::new(&experiment, arguments.quiet),
+        progress: Progress::new(&experiment, arguments.quiet || arguments.tui),
         live,
+        tui: tui.as_ref(),
     };
-    let urgently = driven.is_outside.then_some(!arguments.quiet);
+    let urgently = driven
+        .is_outside
+        .then_some(!arguments.quiet && !arguments.tui);
     let stretch = Stretch::first(experiment);
     let finished = drive::drive(stretch, driven.arm.as_mut(), listeners, urgently, stop);
     drop(driven);
     if live.is_some_and(|live| live.helm().is_restarting()) && !stop.load(Ordering::Relaxed) {
         return Ok(ExitCode::SUCCESS);
     }
-    finish(arguments, &out, settings, finished, live)
+    let shown = tui.map(|tui| (tui, warnings));
+    finish(arguments, &out, settings, finished, live, shown)
 }
 
 /// A flag that Ctrl-C sets.
@@ -131,6 +146,7 @@ fn finish(
     settings: Settings,
     finished: Finished,
     live: Option<&Live>,
+    shown: Option<(Tui, Warnings)>,
 ) -> Result<ExitCode, Failure> {
     let Finished {
         ended,
@@ -166,6 +182,15 @@ fn finish(
             Err(error) => errors.push(with_causes(&error)),
         }
     }
+    if let Some((mut tui, warnings)) = shown {
+        if !tui.stay(&summary.outcome) {
+            // Nobody reads what would be printed, nor what went wrong: the summary has it.
+            return Ok(status(&summary.outcome, &errors));
+        }
+        for warning in warnings.all() {
+            super::warn(&warning);
+        }
+    }
     if arguments.quiet {
         last_words.clear();
     }
@@ -173,8 +198,14 @@ fn finish(
     if !errors.is_empty() {
         return Err(Failure::run(errors.join("\nerror: ")));
     }
-    Ok(match summary.outcome {
+    Ok(status(&summary.outcome, &errors))
+}
+
+/// The exit status of a run that ended so, with these errors.
+fn status(outcome: &Outcome, errors: &[String]) -> ExitCode {
+    match outcome {
+        _ if !errors.is_empty() => ExitCode::FAILURE,
         Outcome::Interrupted => ExitCode::from(INTERRUPTED),
         Outcome::Completed | Outcome::Fault { .. } | Outcome::Running => ExitCode::SUCCESS,
-    })
+    }
 }
