@@ -150,7 +150,7 @@ fn head(
         ),
         (None, None) if looks.is_stopping => ("stopping the arm".to_owned(), bold()),
         (None, None) if course.record.is_none() => ("starting".to_owned(), bold()),
-        (None, None) | (Some(Outcome::Running), None) => ("running".to_owned(), bold()),
+        (None | Some(Outcome::Running), None) => ("running".to_owned(), bold()),
         (Some(Outcome::Completed), None) => ("ended".to_owned(), bold()),
         (Some(Outcome::Interrupted), None) => ("stopped by hand".to_owned(), bold()),
         (Some(Outcome::Fault { name, .. }), None) => (format!("FAULT {name}"), ink.alarm()),

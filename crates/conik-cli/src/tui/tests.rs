@@ -24,7 +24,7 @@ use super::scene::Scene;
 /// A run with an ideal arm, up to the first tick of which `is_enough` says so.
 fn run_until(scenario: &str, is_enough: impl Fn(&Scene, &Record) -> bool) -> (Scene, Course) {
     let scenarios = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenarios");
-    let mut scenario = Scenario::load(&scenarios.join(scenario)).unwrap();
+    let mut scenario = Scenario::load(scenarios.join(scenario)).unwrap();
     // What is held is then on its border, not a little outside.
     scenario.control.mode_rule = ModeRule::Cone;
     scenario.control.border = Border::Land;
