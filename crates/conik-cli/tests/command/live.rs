@@ -100,7 +100,8 @@ fn paused_run_steps_and_goes_on() {
     client.done(json!({"kind": "speed", "factor": 10}));
     client.done(json!({"kind": "resume"}));
     client.wait(|it| it["kind"] == "state" && at(it) > wanted + 0.5 && it["speed"] == 10.0);
-    client.done(json!({"kind": "restart"}));
+    // What comes of it may be told before the answer.
+    client.send(json!({"kind": "restart"}));
     let anew = client.wait(|it| it["kind"] == "ticks" && it["reset"] == true);
     assert!(
         anew["t_s"]
@@ -168,7 +169,7 @@ fn dragged_obstacle_is_told_of_where_it_is_and_where_it_goes() {
         if let Some(place) = post[key].as_array() {
             let x = place[0].as_f64().unwrap() + 0.01;
             let moved = json!([x, place[1], place[2]]);
-            changes.push(json!({"obstacle": "post", "key": key, "value": moved, "speed": 0.05}));
+            changes.push(json!({"obstacle": "post", "key": key, "value": moved, "speed": 0.005}));
         }
     }
     client.done(json!({"kind": "change", "changes": changes}));
@@ -238,7 +239,8 @@ fn run_that_is_begun_anew_leaves_the_log_of_its_last_time() {
     let watched = Watched::start(&folder, &line);
     let mut client = watched.client();
     client.wait(|it| it["kind"] == "state" && it["t_s"].as_f64() > Some(0.5));
-    client.done(json!({"kind": "restart"}));
+    // What comes of it may be told before the answer.
+    client.send(json!({"kind": "restart"}));
     client.wait(|it| it["kind"] == "ticks" && it["reset"] == true);
     let ended = client.wait(|it| it["kind"] == "state" && it["running"] == "ended");
     assert_eq!(ended["outcome"]["kind"], "completed", "{ended}");
