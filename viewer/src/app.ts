@@ -1,6 +1,6 @@
 // The page as a whole: a clock, a pane a run, and what all runs share.
 
-import { hashOf, timeIn } from "./address";
+import { addressed, onMoment, timeIn, write } from "./address";
 import { Clock } from "./clock";
 import { element } from "./element";
 import { FrameTimes } from "./frame_times";
@@ -37,6 +37,7 @@ export class App {
   private readonly announcer = new Announcer();
   /** Drawings that are older than what is to be seen in them. */
   private readonly stale = new Set<{ redraw: () => void }>();
+  private readonly addressed = addressed();
   private isTold = false;
   private told_ms = 0;
 
@@ -80,7 +81,7 @@ export class App {
   /** Begins to show. */
   start(): void {
     document.title = `${this.runs.map((run) => run.title).join(" | ")} – Conik`;
-    const linked = timeIn(location.hash);
+    const linked = timeIn(this.addressed.location.hash);
     if (this.live) this.clock.grow(this.clock.begin_s, this.clock.end_s);
     if (this.live && linked === null) this.clock.follow();
     else this.clock.seek(linked ?? this.clock.begin_s);
@@ -160,15 +161,12 @@ export class App {
       // Browsers refuse an address that changes all the time.
       // Now has no address.
       if (clock.following && location.hash !== "") history.replaceState(null, "", location.pathname + location.search);
-      else if (!clock.isMoving) address = setTimeout(() => history.replaceState(null, "", hashOf(clock.t_s)), 150);
+      else if (!clock.isMoving) address = setTimeout(() => write(this.addressed, clock.t_s), 150);
       if (clock.following === wasFollowing) return;
       wasFollowing = clock.following;
       this.refresh();
     });
-    window.addEventListener("hashchange", () => {
-      const t_s = timeIn(location.hash);
-      if (t_s !== null) clock.seek(t_s);
-    });
+    onMoment(this.addressed, (t_s) => clock.seek(t_s));
     theme.follow(() => this.repaint());
     listen({
       toggle: () => (live ? live.transport.toggle() : clock.toggle()),

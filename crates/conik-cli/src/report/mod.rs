@@ -1,21 +1,27 @@
 //! The report of a run: one page that opens anywhere, also off line.
 //!
 //! [`write`] makes `report.html` from a run folder: the verdict, the paper's Figure 4 for this
-//! run, the task table, the five properties, and the settings. The figures come from
-//! [`figure`](crate::figure); here they are put into words and tables.
+//! run, the task table, the five properties, and the settings; and, at the press of a button, the
+//! run replayed. The figures come from [`figure`](crate::figure), the replay is the page of
+//! [`view`](crate::view); here they are put into words and tables.
 
+use std::error::Error;
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
+use std::thread;
 
 use crate::figure::chart::Layout;
 use crate::figure::markup::Escaped;
 use crate::figure::svg::Picture;
 use crate::figure::{Run, RunError, arm, errors, joints, mode, path, sets};
+use crate::view::ViewError;
 
 mod cycles;
 pub mod monitors;
+mod policy;
 mod properties;
+mod replay;
 mod rotation;
 mod table;
 mod tables;
@@ -32,42 +38,71 @@ const STYLE: &str = include_str!("style.css");
 
 /// Writes `report.html` into the run folder `dir` and returns its path.
 pub fn write(dir: &Path) -> Result<PathBuf, ReportError> {
-    let run = Run::load(dir)?;
+    // The replay can plot every column.
+    let run = Run::load_columns(dir, |_| true)?;
     let path = dir.join("report.html");
-    match fs::write(&path, page(&run)) {
+    match fs::write(&path, page(&run, dir)) {
         Ok(()) => Ok(path),
         Err(source) => Err(ReportError::Write { path, source }),
     }
 }
 
-/// The page as text.
-pub fn page(run: &Run) -> String {
+/// The page as text, of a run that was read from the folder `dir`.
+pub fn page(run: &Run, dir: &Path) -> String {
+    let (report, replay) = thread::scope(|scope| {
+        // Packing takes as long as drawing.
+        let replay = scope.spawn(|| replay::elements(run, dir));
+        let report = report(run);
+        match replay.join() {
+            Ok(replay) => (report, replay),
+            Err(panic) => std::panic::resume_unwind(panic),
+        }
+    });
     let title = Escaped(run.title());
+    let (turning, of_turning) = policy::script(rotation::SCRIPT);
+    let (switching, of_switching) = policy::script(replay::SCRIPT);
+    let policy = policy::element(&[&of_turning, &of_switching, replay::digest_of_player()]);
+    let (tabs, elements, note) = match replay {
+        Ok(elements) => (replay::TABS, elements, String::new()),
+        Err(error) => ("", String::new(), no_replay(&error)),
+    };
+    format!(
+        "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n{policy}\
+         <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
+         <meta name=\"color-scheme\" content=\"light dark\">\n\
+         <title>{title}</title>\n<style>\n{STYLE}</style>\n</head>\n<body>\n{tabs}<main>\n\
+         <h1>{title}</h1>\n{}{note}{report}</main>\n{elements}{turning}{switching}</body>\n</html>\n",
+        verdict::banner(run),
+    )
+}
+
+fn report(run: &Run) -> String {
     let mut sections = vec![figure_four(run)];
     if !run.was_cut_off() {
         sections.extend([
             tables::tasks(run),
             properties::section(run),
             monitors::section(run),
+            tables::timing(run),
+            cycles::section(run),
         ]);
-    }
-    if !run.was_cut_off() {
-        sections.extend([tables::timing(run), cycles::section(run)]);
     }
     sections.extend([
         joints_section(run),
         tables::mode_changes(run),
         settings(run),
     ]);
+    sections.concat()
+}
+
+fn no_replay(error: &ViewError) -> String {
+    // What lies beneath names no folder: the report may be read elsewhere.
+    let why = error
+        .source()
+        .map_or(error.to_string(), ToString::to_string);
     format!(
-        "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
-         <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
-         <meta name=\"color-scheme\" content=\"light dark\">\n\
-         <title>{title}</title>\n<style>\n{STYLE}</style>\n</head>\n<body>\n<main>\n\
-         <h1>{title}</h1>\n{}{}</main>\n{}</body>\n</html>\n",
-        verdict::banner(run),
-        sections.concat(),
-        rotation::script(),
+        "<p class=\"note\">This run cannot be replayed here: {}.</p>\n",
+        Escaped(&why)
     )
 }
 

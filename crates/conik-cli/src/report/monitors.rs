@@ -5,6 +5,7 @@ use std::fmt::Write;
 use conik_sim::monitors::{JointMonitor, Monitors, Sighting, Verdict};
 use conik_sim::summary::Summary;
 
+use super::replay::moment;
 use super::{table, units};
 use crate::figure::Run;
 use crate::figure::lettering::{number, seconds};
@@ -124,7 +125,7 @@ pub fn section(run: &Run) -> String {
             Verdict::Seen => "seen",
             Verdict::NotWatched => "not watched",
         };
-        let at = line.seen.at_s.map_or_else(|| "–".to_owned(), seconds);
+        let at = line.seen.at_s.map_or_else(|| "–".to_owned(), moment);
         let task = line.seen.task.as_deref().unwrap_or("–");
         // Writing to a string cannot fail.
         let _ = writeln!(

@@ -4,8 +4,8 @@
 use conik_sim::scenario::Border;
 use conik_sim::summary::Property;
 
+use super::replay::moment;
 use super::units;
-use crate::figure::lettering::seconds;
 use crate::figure::markup::Escaped;
 use crate::figure::{Run, quantity};
 
@@ -75,7 +75,7 @@ fn row(run: &Run, number: usize, words: &str, property: &Property, force: Force)
         .iter()
         .find(|candidate| Some(candidate.name.as_str()) == task)
         .map_or("-", |task| quantity::unit(run, task));
-    let when = property.at_s.map_or_else(|| "–".to_owned(), seconds);
+    let when = property.at_s.map_or_else(|| "–".to_owned(), moment);
     format!(
         "<tr><td>{number}</td><th scope=\"row\">{words}</th><td class=\"{class}\">{verdict}</td>\
          <td class=\"number\">{}</td><td class=\"number\">{when}</td><td>{}</td></tr>\n",

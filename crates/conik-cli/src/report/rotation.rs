@@ -11,10 +11,8 @@ use crate::figure::obstacles::{Cell, Obstacle, Wall};
 use crate::figure::scene::Scene;
 use crate::figure::{Run, path, shading, solid, wall};
 
-/// The script as an element of the page.
-pub fn script() -> String {
-    format!("<script>\n{}</script>\n", include_str!("rotate.js"))
-}
+/// What turns it.
+pub const SCRIPT: &str = include_str!("rotate.js");
 
 /// The scene as data that the script reads, for a picture of that size [px].
 pub fn scene(run: &Run, width: f64, height: f64) -> String {

@@ -7,6 +7,7 @@ use std::fmt::Write;
 use conik_sim::scenario::{GoalConfig, TaskConfig, TaskKind};
 use conik_sim::summary::{Summary, TaskSummary};
 
+use super::replay::moment;
 use super::table::{section, table};
 use super::units;
 use crate::figure::lettering::{number, seconds};
@@ -191,7 +192,7 @@ pub fn mode_changes(run: &Run) -> String {
         let _ = writeln!(
             body,
             "<tr><td class=\"number\">{}</td><td class=\"number\">{mode}</td><td>{active}</td></tr>",
-            seconds(change.t_s)
+            moment(change.t_s)
         );
     }
     let left_out = changes.len().saturating_sub(MOST_CHANGES);

@@ -87,6 +87,15 @@ impl Recording {
         }
     }
 
+    /// The run in the folder `dir` that is in memory, of which no more than about `most` rows are taken.
+    pub fn of(dir: &Path, run: &Run, most: usize) -> Result<Self, ViewError> {
+        Ok(Self {
+            kind: "recording",
+            protocol: PROTOCOL,
+            runs: vec![RecordedRun::of(dir, run, most)?],
+        })
+    }
+
     /// As the page reads it.
     pub fn to_json(&self) -> String {
         // Names are text, and the rest numbers and lists: nothing that JSON does not have.
@@ -97,6 +106,10 @@ impl Recording {
 impl RecordedRun {
     fn load(dir: &Path) -> Result<Self, ViewError> {
         let run = Run::load_columns(dir, |_| true)?;
+        Self::of(dir, &run, MOST_ROWS)
+    }
+
+    fn of(dir: &Path, run: &Run, most: usize) -> Result<Self, ViewError> {
         let summary = run.summary();
         let unready = |source| ViewError::Scenario {
             dir: dir.to_owned(),
@@ -123,7 +136,7 @@ impl RecordedRun {
             name: name.to_string_lossy().into_owned(),
             scene,
             later,
-            ticks: Ticks::of(run.log(), MOST_ROWS),
+            ticks: Ticks::of(run.log(), most),
         })
     }
 }
