@@ -175,15 +175,16 @@ pub struct CheckArguments {
 
 /// What `conik plot` writes, for its help.
 const PLOT_HELP: &str = "\
-Writes, besides report.html:
-  path.svg     the tool's path among obstacles and waypoints
-  arm.svg      the arm at a few times, with cones of view
-  mode.svg     the mode over time
-  sets.svg     each set over time, with its limits
-  errors.svg   errors of the equality tasks
-  joints.svg   positions and velocities of the joints
-  figure4.svg  path, mode, sets and errors in one
-  cycles.svg   times of the cycles of an arm with a clock of its own";
+Writes, besides report.html, each of these as .svg and .png:
+  path      the tool's path among obstacles and waypoints
+  mode      the mode over time
+  sets      each set over time, with its limits
+  errors    errors of the equality tasks
+  joints    positions and velocities of the joints
+  figure4   path, mode, sets and errors in one
+  arm       the arm at a few times in one picture, with cones of view
+  figure5   the arm at a few times, a picture for each, with the frames of base and tool
+  cycles    times of the cycles of an arm with a clock of its own";
 
 /// `conik plot`
 #[derive(Debug, Args)]
@@ -192,9 +193,49 @@ pub struct PlotArguments {
     /// A folder that `conik run` wrote
     #[arg(value_hint = ValueHint::DirPath)]
     pub dir: PathBuf,
+    /// Show the arm at these times of the run, at most 12 [default: where it looks most different]
+    #[arg(
+        long,
+        value_name = "SECONDS,...",
+        value_delimiter = ',',
+        allow_negative_numbers = true
+    )]
+    pub at: Vec<f64>,
+    /// Write figures in this format only; may be given more than once [default: both]
+    #[arg(long, value_enum, value_delimiter = ',')]
+    pub format: Vec<FormatArgument>,
+    /// Pixels of a PNG for each of the SVG, 0.1 to 20
+    #[arg(long, value_name = "FACTOR", default_value_t = 2.0, value_parser = scale)]
+    pub scale: f64,
+    /// Width of every PNG in pixels, in place of --scale
+    #[arg(
+        long,
+        value_name = "PIXELS",
+        conflicts_with = "scale",
+        value_parser = clap::value_parser!(u32).range(16..=20_000)
+    )]
+    pub width_px: Option<u32>,
     /// Do not print the names of the files written
     #[arg(long, short)]
     pub quiet: bool,
+}
+
+/// Formats of pictures.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum FormatArgument {
+    /// Lines and letters, for print and to be edited
+    Svg,
+    /// Pixels, for slides and where SVG is not shown
+    Png,
+}
+
+fn scale(text: &str) -> Result<f64, String> {
+    let scale: f64 = text.parse().map_err(|_| "not a number".to_owned())?;
+    if (0.1..=20.0).contains(&scale) {
+        Ok(scale)
+    } else {
+        Err("give a factor from 0.1 to 20".to_owned())
+    }
 }
 
 /// What `conik export` writes, for its help.

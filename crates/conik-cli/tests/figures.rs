@@ -5,10 +5,12 @@ mod svg_frame;
 
 use std::fs;
 
-use conik_cli::figure::{self, Run, sets};
+use conik_cli::figure::scene::Scene;
+use conik_cli::figure::{self, Resolution, Run, Wanted, sets};
 use invented_run::{Invention, strange_runs};
+use resvg::tiny_skia::Pixmap;
 
-const FILES: [&str; 8] = [
+const FILES: [&str; 9] = [
     "path.svg",
     "mode.svg",
     "sets.svg",
@@ -16,15 +18,23 @@ const FILES: [&str; 8] = [
     "joints.svg",
     "figure4.svg",
     "arm.svg",
+    "figure5.svg",
     "cycles.svg",
 ];
+
+fn only_svg() -> Wanted {
+    Wanted {
+        png: None,
+        ..Wanted::default()
+    }
+}
 
 /// Draws the run and returns the pictures in the order of [`FILES`].
 fn drawn(name: &str, run: &Invention) -> Vec<String> {
     let dir = run.write(name);
-    let written = figure::write_all(&dir).unwrap();
+    let written = figure::write_all(&dir, &only_svg()).unwrap();
     // Of an arm that is not the scenario's robot nobody knows what it looks like.
-    let known = |file: &&str| *file != "arm.svg" || run.joints == 6;
+    let known = |file: &&str| !["arm.svg", "figure5.svg"].contains(file) || run.joints == 6;
     let files = FILES.into_iter().filter(known).map(|file| dir.join(file));
     assert_eq!(written, files.collect::<Vec<_>>());
     written
@@ -55,7 +65,7 @@ fn assert_well_formed(svg: &str, what: &str) {
 
 #[test]
 fn each_panel_shows_what_it_is_for() {
-    let [path, mode, sets, errors, joints, all, arm, cycles] =
+    let [path, mode, sets, errors, joints, all, arm, five, cycles] =
         drawn("usual", &Invention::default()).try_into().unwrap();
     for label in [
         "x [m]",
@@ -92,6 +102,9 @@ fn each_panel_shows_what_it_is_for() {
     for label in ["x [m]", "start", "1.8\u{a0}s", "obstacle_0", "<g opacity="] {
         assert!(arm.contains(label), "arm: {label}");
     }
+    for label in ["t = 0\u{a0}s", "colours of the paper", ">x<", ">y<", ">z<"] {
+        assert!(five.contains(label), "figure 5: {label}");
+    }
     assert!(all.contains("tool path") && all.contains("active mode"));
     for label in [
         "time [µs]",
@@ -102,6 +115,108 @@ fn each_panel_shows_what_it_is_for() {
     ] {
         assert!(cycles.contains(label), "cycles: {label}: {cycles}");
     }
+}
+
+#[test]
+fn the_arm_is_shown_at_the_times_asked_for() {
+    let dir = Invention::default().write("times");
+    let at = |at_s: &[f64]| {
+        let wanted = Wanted {
+            at_s: at_s.to_vec(),
+            ..only_svg()
+        };
+        figure::write_all(&dir, &wanted).map_err(|error| error.to_string())
+    };
+    at(&[2.503, 0.0, 1.2]).unwrap();
+    let five = fs::read_to_string(dir.join("figure5.svg")).unwrap();
+    // Between two rows, the nearer one.
+    let times = ["t = 0\u{a0}s", "t = 1.2\u{a0}s", "t = 2.504\u{a0}s"];
+    let places: Vec<usize> = times.iter().filter_map(|time| five.find(time)).collect();
+    assert!(places.len() == 3 && places.is_sorted(), "{places:?}");
+    let arm = fs::read_to_string(dir.join("arm.svg")).unwrap();
+    assert!(arm.contains("The arm at 0\u{a0}s, 1.2\u{a0}s, 2.504\u{a0}s,"));
+    for bad in [-0.1, 4.0, f64::NAN, f64::INFINITY] {
+        let error = at(&[1.0, bad]).unwrap_err();
+        assert!(error.contains("from 0 s to 3.992 s"), "{error}");
+    }
+    assert!(at(&[1.0; 13]).unwrap_err().contains("at most 12"));
+    let stranger = Invention {
+        joints: 3,
+        ..Invention::default()
+    };
+    let wanted = Wanted {
+        at_s: vec![1.0],
+        ..only_svg()
+    };
+    let error = figure::write_all(&stranger.write("times of a stranger"), &wanted).unwrap_err();
+    assert!(error.to_string().contains("robot of this run is not known"));
+}
+
+#[test]
+fn a_run_shown_until_a_time_has_its_path_until_then() {
+    let run = Run::load(&Invention::default().write("until")).unwrap();
+    let end = |run: &Run| Scene::of(run).ends().unwrap().1;
+    let on_circle = |t_s: f64| [0.5 + 0.1 * t_s.cos(), 0.3 * t_s.sin(), -0.2];
+    assert_eq!(end(&run), on_circle(3.992));
+    assert_eq!(end(&run.until(1.0)), on_circle(1.0));
+    assert!(run.is_whole() && !run.until(1.0).is_whole());
+}
+
+#[test]
+fn pixels_have_the_colours_of_the_marks() {
+    let dir = Invention::default().write("pixels");
+    let wanted = Wanted {
+        at_s: vec![1.0],
+        png: Some(Resolution::Scale(3.0)),
+        ..Wanted::default()
+    };
+    figure::write_all(&dir, &wanted).unwrap();
+    let svg = fs::read_to_string(dir.join("figure5.svg")).unwrap();
+    let png = Pixmap::decode_png(&fs::read(dir.join("figure5.png")).unwrap()).unwrap();
+    let (_, cell) = svg.split_once("<g transform=\"translate(0 22)\">").unwrap();
+    // The paper's: x, y, z of base and tool.
+    for colour in ["#1a7f37", "#0550ae", "#d1242f"] {
+        let heads = cell.split("<polygon points=\"").skip(1);
+        let heads = heads.filter(|it| it.contains(&format!("fill=\"{colour}\"")));
+        let mut count = 0;
+        for head in heads {
+            let (points, _) = head.split_once('"').unwrap();
+            let numbers: Vec<f64> = points
+                .split([' ', ','])
+                .map(|number| number.parse().unwrap())
+                .collect();
+            let middle = |from: usize| numbers.iter().skip(from).step_by(2).sum::<f64>() / 3.0;
+            #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
+            let place = |value: f64| (3.0 * value) as u32;
+            let pixel = png
+                .pixel(place(middle(0)), place(middle(1) + 22.0))
+                .unwrap();
+            let painted = format!(
+                "#{:02x}{:02x}{:02x}",
+                pixel.red(),
+                pixel.green(),
+                pixel.blue()
+            );
+            assert_eq!(painted, colour, "{points}");
+            count += 1;
+        }
+        assert_eq!(count, 2, "base and tool, {colour}");
+    }
+    let corner = png.pixel(1, 1).unwrap();
+    assert_eq!((corner.red(), corner.alpha()), (255, 255), "white paper");
+}
+
+#[test]
+fn the_same_run_gives_the_same_pixels() {
+    let bytes = |name: &str| {
+        let dir = Invention::default().write(name);
+        let written = figure::write_all(&dir, &Wanted::default()).unwrap();
+        let pictures = written.iter().filter(|it| it.extension().unwrap() == "png");
+        pictures.map(|it| fs::read(it).unwrap()).collect::<Vec<_>>()
+    };
+    let once = bytes("pixels once");
+    assert_eq!(once.len(), FILES.len());
+    assert!(once == bytes("pixels twice"));
 }
 
 #[test]
@@ -188,7 +303,9 @@ fn the_same_run_gives_the_same_bytes() {
 #[test]
 fn a_folder_that_is_no_run_is_an_error_with_a_name() {
     let dir = std::path::Path::new(env!("CARGO_TARGET_TMPDIR")).join("nothing here");
-    let error = figure::write_all(&dir).unwrap_err().to_string();
+    let error = figure::write_all(&dir, &Wanted::default())
+        .unwrap_err()
+        .to_string();
     assert!(
         error.contains("summary.json") && error.contains("folder of a run"),
         "{error}"
@@ -198,7 +315,9 @@ fn a_folder_that_is_no_run_is_an_error_with_a_name() {
         ..Invention::default()
     }
     .write("no rows");
-    let error = figure::write_all(&dir).unwrap_err().to_string();
+    let error = figure::write_all(&dir, &Wanted::default())
+        .unwrap_err()
+        .to_string();
     assert!(
         error.contains("log.csv") && error.contains("no rows"),
         "{error}"

@@ -1,108 +1,62 @@
 //! Panel: the arm in the scene at a few telling times, with what it keeps away from and where it looks.
 
-use conik::{Kinematics, Robot, Shape};
-use conik_sim::scenario::RobotSource;
+use conik::Shape;
 
-use super::arm_parts::Arm;
 use super::camera::Vector;
-use super::cone;
-use super::depth::Placed;
 use super::lettering::seconds;
 use super::moments::{self, Moment};
+use super::palette;
 use super::path::legend;
+use super::posed::{Poser, Role, robot_of};
 use super::run::Run;
 use super::scene::Scene;
-use super::shading::{NEUTRAL, Paint};
 use super::solid;
 use super::stage::{Part, Stage};
 use super::svg::{Marks, Picture};
 use super::viewpoint::Viewpoint;
 
-/// The panel with a legend of the modes; `None` if it cannot be told where the arm was.
-pub fn panel(run: &Run, width: f64, height: f64) -> Option<Picture> {
-    let scenario = &run.summary().settings.scenario;
-    let robot = scenario.robot.described().ok()?;
-    if robot.dof() != scenario.robot.q0_rad.len() {
-        return None;
-    }
-    let further_tools = match &scenario.robot.source {
-        RobotSource::Urdf(file) => &file.tool[..],
-        RobotSource::Model { .. } => &[],
-    };
-    let arm = Arm::new(&robot, further_tools);
-    let moments = moments::of(run, &robot, arm.size);
+/// The panel with a legend of the modes, at the times `at_s` or, without any, at telling ones; `None` if it
+/// cannot be told where the arm was.
+pub fn panel(run: &Run, at_s: &[f64], width: f64, height: f64) -> Option<Picture> {
+    let robot = robot_of(run)?;
+    let poser = Poser::new(run, &robot);
+    let moments = moments::chosen(run, &robot, at_s, poser.arm.size);
     let legend = legend(run, width);
-    let mut picture = draw(run, &robot, &arm, &moments, width, height - legend.height)?;
+    let mut picture = draw(run, &poser, &moments, width, height - legend.height)?;
     picture.marks.place((0.0, picture.height), &legend);
     picture.height += legend.height;
     Some(picture)
 }
 
-fn draw(
-    run: &Run,
-    robot: &Robot,
-    arm: &Arm,
-    moments: &[Moment],
-    width: f64,
-    height: f64,
-) -> Option<Picture> {
-    let last = moments.last()?;
-    let mut kinematics = Kinematics::new(robot);
-    let shells = shells(run);
+fn draw(run: &Run, poser: &Poser, moments: &[Moment], width: f64, height: f64) -> Option<Picture> {
     let (mut parts, mut cones, mut notes) = (Vec::new(), Vec::new(), Vec::new());
     let mut lines: Vec<Vec<Vector>> = Vec::new();
+    let mut last = None;
     for (figure, moment) in moments.iter().enumerate() {
         let is_last = figure + 1 == moments.len();
-        // The earlier, the lighter.
-        let sheet = if is_last {
-            1.0
-        } else {
-            0.24 + 0.3 * figure as f64 / moments.len() as f64
+        let role = Role {
+            figure,
+            // The earlier, the lighter.
+            sheet: if is_last {
+                1.0
+            } else {
+                0.24 + 0.3 * figure as f64 / moments.len() as f64
+            },
+            hides: is_last,
         };
-        let mut put = |shape: Shape, paint: Paint<'static>, is_hull: bool| {
-            parts.push(Part {
-                placed: Placed {
-                    shape,
-                    figure: Some(figure),
-                    is_hull,
-                },
-                paint,
-                sheet,
-                hides: is_last && !is_hull,
-            });
-        };
-        let drawn = arm.at(&moment.q);
-        for (shape, tint) in drawn.solids {
-            put(shape, Paint::part(tint), false);
-        }
-        kinematics.update(&moment.q);
-        for (link, shape) in &shells {
-            if let Some(frame) = robot.frame(link) {
-                let placed = shape.placed(kinematics.world_from(frame));
-                put(placed, Paint::shell(NEUTRAL), true);
-            }
-        }
-        lines.extend(drawn.lines);
-        cones.extend(cone::of(
-            run,
-            robot,
-            (moment.t_s, &kinematics),
-            0.2 * arm.size,
-            sheet,
-        ));
-        let tool = kinematics.world_from(conik::Frame::Tool).origin.to_array();
+        let posed = poser.at(moment, role);
         // The start has a name already.
-        if figure > 0 {
+        if moment.t_s > run.period_s().0 {
+            let tool = posed.tools.first()?.origin.to_array();
             notes.push((tool, format!("{:.1}\u{a0}s", moment.t_s)));
         }
+        parts.extend(posed.parts);
+        cones.extend(posed.cones);
+        lines.extend(posed.lines.clone());
+        last = Some((posed.lines, posed.base));
     }
-    let [x, y, z] = axes();
-    let rim = |part: &Part| {
-        let shape = &part.placed.shape;
-        [solid::rim(shape, x, y), solid::rim(shape, y, z)].concat()
-    };
-    let points: Vec<Vector> = parts.iter().flat_map(rim).collect();
-    let scene = Scene::with(run, &points);
+    let (last, base) = last?;
+    let scene = Scene::with(run, &outline(&parts));
     let screens: Vec<Shape> = parts
         .iter()
         .filter(|part| part.hides)
@@ -111,7 +65,7 @@ fn draw(
     let viewpoint = Viewpoint {
         scene: &scene,
         figures: &lines,
-        last: arm.at(&last.q).lines,
+        last,
         screens: &screens,
     };
     let stage = Stage {
@@ -120,7 +74,8 @@ fn draw(
         parts,
         cones,
         notes,
-        foot: Some(arm.base(&kinematics).origin.to_array()),
+        foot: Some(base.origin.to_array()),
+        axes: palette::AXES,
     };
     let height = stage.height(viewpoint.best_deg(), width, height);
     let (view, mut placement) = stage.view(viewpoint.best_deg(), width, height);
@@ -134,17 +89,15 @@ fn draw(
     })
 }
 
-fn axes() -> [conik::Vec3; 3] {
+/// Points around the parts, as far out as they reach along the axes of the world.
+pub(super) fn outline(parts: &[Part]) -> Vec<Vector> {
     let world = conik::Pose::IDENTITY;
-    [world.x_axis, world.y_axis, world.z_axis]
-}
-
-/// The shapes on links, and the links.
-fn shells(run: &Run) -> Vec<(&str, Shape)> {
-    let shapes = run.summary().settings.scenario.collision.shapes.iter();
-    shapes
-        .map(|it| (it.link.as_str(), it.geometry.shape()))
-        .collect()
+    let [x, y, z] = [world.x_axis, world.y_axis, world.z_axis];
+    let rim = |part: &Part| {
+        let shape = &part.placed.shape;
+        [solid::rim(shape, x, y), solid::rim(shape, y, z)].concat()
+    };
+    parts.iter().flat_map(rim).collect()
 }
 
 fn describe(moments: &[Moment]) -> String {

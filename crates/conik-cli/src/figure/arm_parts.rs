@@ -21,6 +21,8 @@ pub struct Arm<'a> {
     tools: Vec<Frame>,
     /// How far it reaches, about [m].
     pub size: f64,
+    /// Whether the axes of its tools are among its solids.
+    pub shows_axes: bool,
 }
 
 /// The arm at one time.
@@ -47,6 +49,7 @@ impl<'a> Arm<'a> {
             robot,
             tools,
             size: 0.0,
+            shows_axes: true,
         };
         let longest = |line: &Vec<Vector>| {
             let pairs = line.windows(2);
@@ -100,7 +103,9 @@ impl<'a> Arm<'a> {
                 self.radius(step, joints.len()),
                 &mut drawn,
             );
-            self.axes(pose, &mut drawn);
+            if self.shows_axes {
+                self.axes(pose, &mut drawn);
+            }
             drawn
                 .lines
                 .push(line_to(&joints, carrier, base.origin, pose.origin));
@@ -118,6 +123,12 @@ impl<'a> Arm<'a> {
         } else {
             Pose::IDENTITY
         }
+    }
+
+    /// The frames at which its branches end, the tool first.
+    pub fn tools(&self, kinematics: &Kinematics) -> Vec<Pose> {
+        let tools = self.tools.iter();
+        tools.map(|&tool| *kinematics.world_from(tool)).collect()
     }
 
     /// Thickness of what it stands on [m].

@@ -59,7 +59,7 @@ pub fn draw(run: &Run, scene: &Scene, view: &View, marks: &mut Marks, placement:
         );
     }
     name_walls(scene, view, marks, placement);
-    name_moving(scene, view, marks, placement);
+    name_moving(run, scene, view, marks, placement);
     for sight in &scene.around.sights {
         let name = lettering::shorten(&sight.name, LABEL, 130.0);
         let style = Lettering::new(LABEL, NAME);
@@ -149,13 +149,20 @@ fn name_walls(scene: &Scene, view: &View, marks: &mut Marks, placement: &mut Pla
     }
 }
 
-/// Names what moves where it was at the start and where it is at the end.
-fn name_moving(scene: &Scene, view: &View, marks: &mut Marks, placement: &mut Placement) {
+/// Names what moves where it was at the start and where it is at the end, or at the time shown.
+fn name_moving(
+    run: &Run,
+    scene: &Scene,
+    view: &View,
+    marks: &mut Marks,
+    placement: &mut Placement,
+) {
     let moving = scene.around.obstacles.iter();
     for obstacle in moving.filter(|it| it.moved.is_some()).take(MOST_NAMED) {
-        let places = [(obstacle.shape, "end"), (obstacle.at_start(), "start")];
+        let here = if run.is_whole() { ", end" } else { "" };
+        let places = [(obstacle.shape, here), (obstacle.at_start(), ", start")];
         for (shape, when) in places {
-            let name = format!("{}, {when}", obstacle.name);
+            let name = format!("{}{when}", obstacle.name);
             name_shape(&name, &shape, view, marks, placement);
         }
     }

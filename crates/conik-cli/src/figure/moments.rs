@@ -24,27 +24,52 @@ pub struct Moment {
     pub q: Vec<f64>,
 }
 
-/// The moments of a run in order of time, the start and the end among them; none if the log does not tell
-/// where the joints of this robot were.
-pub fn of(run: &Run, robot: &Robot, size: f64) -> Vec<Moment> {
-    let columns: Option<Vec<&[f64]>> = (1..=robot.dof())
-        .map(|joint| run.log().column(&format!("q{joint}_rad")))
-        .collect();
-    let Some(columns) = columns else {
+/// The moments at the times `at_s`, in order of time; without any, the telling ones.
+pub fn chosen(run: &Run, robot: &Robot, at_s: &[f64], size: f64) -> Vec<Moment> {
+    if at_s.is_empty() {
+        return of(run, robot, size);
+    }
+    let Some(columns) = columns(run, robot) else {
         return Vec::new();
     };
+    let mut moments: Vec<Moment> = at_s
+        .iter()
+        .filter_map(|&t_s| moment(run, &columns, t_s))
+        .collect();
+    moments.sort_by(|a, b| a.t_s.total_cmp(&b.t_s));
+    moments.dedup();
+    moments
+}
+
+/// The columns of the joints of this robot; `None` if the log does not have them.
+fn columns<'a>(run: &'a Run, robot: &Robot) -> Option<Vec<&'a [f64]>> {
+    (1..=robot.dof())
+        .map(|joint| run.log().column(&format!("q{joint}_rad")))
+        .collect()
+}
+
+/// The row next to a time, if the joints were somewhere then.
+fn moment(run: &Run, columns: &[&[f64]], t_s: f64) -> Option<Moment> {
     let times = run.log().time_s();
-    let at = |t_s: f64| {
-        let row = times
-            .partition_point(|&time| time < t_s)
-            .min(times.len().checked_sub(1)?);
-        let q: Option<Vec<f64>> = columns
-            .iter()
-            .map(|column| column.get(row).copied())
-            .collect();
-        let q = q.filter(|q| q.iter().all(|position| position.is_finite()))?;
-        Some(Moment { t_s: times[row], q })
+    let after = times.partition_point(|&time| time < t_s);
+    let rows = [after.checked_sub(1), Some(after)].into_iter().flatten();
+    let rows = rows.filter(|&row| row < times.len());
+    let row = rows.min_by(|&a, &b| (times[a] - t_s).abs().total_cmp(&(times[b] - t_s).abs()))?;
+    let q: Option<Vec<f64>> = columns
+        .iter()
+        .map(|column| column.get(row).copied())
+        .collect();
+    let q = q.filter(|q| q.iter().all(|position| position.is_finite()))?;
+    Some(Moment { t_s: times[row], q })
+}
+
+/// The telling moments of a run in order of time, the start and the end among them; none if the log does
+/// not tell where the joints of this robot were.
+pub fn of(run: &Run, robot: &Robot, size: f64) -> Vec<Moment> {
+    let Some(columns) = columns(run, robot) else {
+        return Vec::new();
     };
+    let at = |t_s: f64| moment(run, &columns, t_s);
     let (begin, end) = run.period_s();
     let places = |moment: &Moment| places(robot, &moment.q, TOOL * size);
     let mut chosen: Vec<Moment> = [begin, end].into_iter().filter_map(at).collect();

@@ -265,9 +265,9 @@ fn of_half_space(name: String, half_space: &HalfSpace, tint: &'static str) -> Wa
     }
 }
 
-/// Where a point is at the end of the run.
+/// Where a point is at the end of the run, or at the time that it is shown at.
 pub(super) fn at_end(run: &Run, point: Vector, motion: &Motion) -> Vector {
-    motion.point_at(point, run.summary().ended_at_s)
+    motion.point_at(point, run.until_s())
 }
 
 /// The colour of the mode that was longest in force among those in which a set was active that `is_meant`.

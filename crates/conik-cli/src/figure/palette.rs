@@ -15,6 +15,8 @@ pub const ALARM: &str = "#b3261e";
 
 /// The axes of a frame: x, y and z.
 pub const AXES: [&str; 3] = ["#d1242f", "#1a7f37", "#0550ae"];
+/// The same in the paper's Figure 5.
+pub const AXES_OF_PAPER: [&str; 3] = [AXES[1], AXES[2], AXES[0]];
 
 /// The yellow of Okabe and Ito is left out: on white it is too faint for a line.
 const OKABE_ITO: [&str; 6] = [

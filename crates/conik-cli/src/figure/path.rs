@@ -31,6 +31,7 @@ pub fn draw(run: &Run, scene: &Scene, width: f64, height: f64) -> Picture {
         cones: Vec::new(),
         notes: Vec::new(),
         foot: None,
+        axes: palette::AXES,
     };
     let (view, mut placement) = stage.view(view_deg(scene), width, height);
     let mut marks = Marks::default();

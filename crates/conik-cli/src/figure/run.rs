@@ -3,6 +3,7 @@
 use std::fs::File;
 use std::io::{self, BufReader, Read};
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use conik::{Joint, JointKind};
 use conik_sim::log::{Log, LogError};
@@ -20,8 +21,9 @@ const LARGEST_SUMMARY: u64 = 1 << 28;
 /// What a run folder holds.
 #[derive(Clone, Debug)]
 pub struct Run {
-    log: Log,
-    summary: Summary,
+    log: Arc<Log>,
+    summary: Arc<Summary>,
+    until_s: f64,
     tasks: Vec<TaskConfig>,
     modes: Vec<Mode>,
     spans: Vec<Span>,
@@ -104,11 +106,31 @@ impl Run {
         Self {
             tasks: summary.settings.scenario.all_tasks(),
             joints_that_slide: joints_that_slide(&summary),
-            log,
-            summary,
+            until_s: summary.ended_at_s,
+            log: Arc::new(log),
+            summary: Arc::new(summary),
             modes,
             spans,
         }
+    }
+
+    /// The same run as it looked at that time [s]: the path so far, and what moves where it was then.
+    #[must_use]
+    pub fn until(&self, t_s: f64) -> Self {
+        Self {
+            until_s: t_s,
+            ..self.clone()
+        }
+    }
+
+    /// The time that the scene is shown at [s]: the end of the run, but for [`Run::until`].
+    pub fn until_s(&self) -> f64 {
+        self.until_s
+    }
+
+    /// Whether it is shown up to its end.
+    pub fn is_whole(&self) -> bool {
+        self.until_s >= self.summary.ended_at_s
     }
 
     /// The log.
@@ -199,8 +221,11 @@ impl Run {
         self.summary.outcome == Outcome::Running
     }
 
-    /// A word on how the run ended, if it ended before its time.
+    /// A word on how the run ended, if it ended before its time and is shown up to there.
     pub fn early_end(&self) -> Option<String> {
+        if !self.is_whole() {
+            return None;
+        }
         match &self.summary.outcome {
             Outcome::Completed => None,
             Outcome::Running => Some("cut off".to_owned()),

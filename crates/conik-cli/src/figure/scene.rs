@@ -224,7 +224,7 @@ fn targets_of(run: &Run) -> Vec<Target> {
                 _,
             ) => {
                 let turn = Pose::from_quaternion_wxyz(*desired_quaternion_wxyz);
-                let turned = task.motion.turned_at(run.summary().ended_at_s).into();
+                let turned = task.motion.turned_at(run.until_s()).into();
                 targets.push(Target {
                     point: at_end(run, *target_m, &task.motion),
                     from: *target_m,
@@ -245,8 +245,17 @@ fn targets_of(run: &Run) -> Vec<Target> {
 
 fn path_of(run: &Run) -> Vec<Piece> {
     let log = run.log();
-    let coordinates =
-        ["tool_x_m", "tool_y_m", "tool_z_m"].map(|name| log.column(name).unwrap_or_default());
+    let times = log.time_s();
+    let end = if run.is_whole() {
+        times.len()
+    } else {
+        times.partition_point(|&t_s| t_s <= run.until_s())
+    };
+    let coordinates = ["tool_x_m", "tool_y_m", "tool_z_m"].map(|name| {
+        log.column(name)
+            .and_then(|it| it.get(..end))
+            .unwrap_or_default()
+    });
     let mut pieces: Vec<Piece> = Vec::new();
     for row in decimate_in_space(coordinates, 330) {
         let point = coordinates.map(|values| values[row]);

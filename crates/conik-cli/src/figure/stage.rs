@@ -52,6 +52,8 @@ pub struct Stage<'a> {
     pub notes: Vec<(Vector, String)>,
     /// What stands above the floor, and should not seem to float.
     pub foot: Option<Vector>,
+    /// Colours of the axes that the tool should have at a target.
+    pub axes: [&'static str; 3],
 }
 
 impl Stage<'_> {
@@ -234,7 +236,7 @@ impl Stage<'_> {
         let axes = target.turn.map(|it| [it.x_axis, it.y_axis, it.z_axis]);
         let tips = axes.into_iter().flatten();
         tips.map(move |axis| (point + axis * length).to_array())
-            .zip(palette::AXES)
+            .zip(self.axes)
     }
 
     /// The ways of what moves, and what is looked at.

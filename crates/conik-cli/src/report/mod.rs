@@ -123,7 +123,7 @@ fn figure_four(run: &Run) -> String {
     let sets: String = set_charts.map(|chart| card(&chart)).collect();
     let errors: String = error_charts.map(|chart| card(&chart)).collect();
     let path = path::panel(run, PATH.0, PATH.1);
-    let arm = arm::panel(run, ARM.0, ARM.1).map(|picture| {
+    let arm = arm::panel(run, &[], ARM.0, ARM.1).map(|picture| {
         let picture = scrolling_card(&picture);
         format!("<h3>The arm at a few times</h3>\n{picture}")
     });

@@ -219,7 +219,7 @@ fn right_palm_stays_on_the_crate() {
 #[test]
 fn arm_is_drawn_again_where_its_tool_has_turned() {
     let folder = run("turned", "pouring");
-    done(&folder, "plot . --quiet");
+    done(&folder, "plot . --quiet --format svg");
     let reached = &summary(&folder)["waypoints_reached_s"][1];
     let picture = fs::read_to_string(folder.join("arm.svg")).unwrap();
     let title = picture.split("</title>").next().unwrap();

@@ -14,7 +14,7 @@ fn pictures_are_right(name: &str, scenario: &str) -> String {
     let folder = empty_folder(&format!("pictures of {name}"));
     fs::write(folder.join("scenario.toml"), scenario).unwrap();
     done(&folder, "run scenario.toml --robot ideal --quiet --out .");
-    let said = done(&folder, "plot .");
+    let said = done(&folder, "plot . --format svg");
     let is_picture = |file: &&str| Path::new(file).extension().is_some_and(|it| it == "svg");
     for file in said.lines().filter(is_picture) {
         let svg = fs::read_to_string(folder.join(file)).unwrap();
@@ -132,7 +132,7 @@ fn many_pairs_of_shapes_have_charts_only_if_they_came_to_their_limits() {
         );
         fs::write(folder.join("scenario.toml"), scenario).unwrap();
         done(&folder, "run scenario.toml --robot ideal --quiet --out .");
-        done(&folder, "plot . --quiet");
+        done(&folder, "plot . --quiet --format svg");
         let read = |file| fs::read_to_string(folder.join(file)).unwrap();
         (read("sets.svg"), read("report.html"))
     };

@@ -94,10 +94,54 @@ fn plot_draws_the_figures_and_the_report_again() {
     let help = done(&folder, "plot --help");
     for path in said.lines() {
         let file = path.strip_prefix("o/").unwrap();
-        assert!(help.contains(file), "{file} is not in the help");
+        let (figure, _) = file.split_once('.').unwrap();
+        assert!(
+            help.contains(&format!("  {figure} ")) || help.contains(file),
+            "{file} is not in the help"
+        );
         assert!(fs::metadata(folder.join(path)).unwrap().len() > 0, "{path}");
     }
     assert_eq!(done(&folder, "plot o --quiet"), "");
+}
+
+#[test]
+fn plot_makes_the_formats_sizes_and_times_that_are_asked_for() {
+    let folder = empty_folder("plot options");
+    let example = paper("example2");
+    let line = format!("run {} --robot ideal --duration-s 2", example.display());
+    done(&folder, &format!("{line} --out o"));
+    let said = done(&folder, "plot o --at 1.5,0 --format png --width-px 500");
+    let pictures: Vec<&str> = said.lines().filter(|it| *it != "o/report.html").collect();
+    assert_eq!(pictures.len(), 8, "{said}");
+    for path in pictures {
+        let bytes = fs::read(folder.join(path)).unwrap();
+        assert_eq!(bytes[..8], *b"\x89PNG\r\n\x1a\n", "{path}");
+        assert_eq!(bytes[16..20], 500_u32.to_be_bytes(), "{path}");
+    }
+    assert!(!folder.join("o/arm.svg").exists());
+    done(&folder, "plot o --at 1.503 --format svg -q");
+    let arm = fs::read_to_string(folder.join("o/figure5.svg")).unwrap();
+    assert!(arm.contains("the arm at 1.504\u{a0}s,"), "{arm}");
+
+    for (options, says) in [
+        (
+            "--at 3",
+            "at 3 s there was no arm: the run went from 0 s to 2 s",
+        ),
+        ("--at -1", "at -1 s there was no arm"),
+        ("--at NaN", "at NaN s there was no arm"),
+        ("--at 0,later", "later"),
+        ("--at 0,0,0,0,0,0,0,0,0,0,0,0,0", "13 times are too many"),
+        ("--scale 0", "from 0.1 to 20"),
+        ("--scale big", "not a number"),
+        ("--width-px 1", "16..=20000"),
+        ("--width-px 500 --scale 3", "cannot be used with"),
+        ("--format gif", "possible values: svg, png"),
+    ] {
+        let said = say(&folder, &format!("plot o {options}"));
+        assert_eq!(said.status, Some(2), "{options}: {said:#?}");
+        assert!(said.stderr.contains(says), "{options}: {}", said.stderr);
+    }
 }
 
 #[test]
