@@ -22,5 +22,7 @@ export default defineConfig({
     expect: { poll: { timeout: IN_VAIN / 2 } },
     // Browsers that draw in software leave nothing for each other.
     fileParallelism: false,
+    // One that draws in software beside other programs may lose a click: what fails twice has failed.
+    retry: 1,
   },
 });
