@@ -156,15 +156,14 @@ mod tests {
         let slowing = turns(&mut pace, 40);
         // Half of the way of the ramp's 25 cycles at full speed.
         assert!((way(&slowing) - 12.0).abs() <= 1.0, "{slowing:?}");
-        let mut last = 1.0;
+        let (mut last, mut since) = (1.0, 0);
         for turn in &slowing {
+            since += 1;
             if let Turn::Between { share, speed } = *turn {
                 assert!((0.0..1.0).contains(&share));
-                assert!(
-                    last - speed < 0.13,
-                    "three cycles' worth of the ramp at most"
-                );
-                last = speed;
+                let slowest = last - 0.04 * f64::from(since);
+                assert!(speed <= last && speed >= slowest - 1e-12, "{slowing:?}");
+                (last, since) = (speed, 0);
             }
         }
         assert!(last.abs() < 1e-12, "it stands");
