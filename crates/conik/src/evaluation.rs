@@ -5,7 +5,7 @@ use alloc::vec::Vec;
 
 use crate::active::ActiveSet;
 use crate::kinematics::Kinematics;
-use crate::linalg::are_equal;
+use crate::linalg::{are_equal, not_finite};
 use crate::robot::Robot;
 use crate::stack::{Goal, Stack};
 use crate::task::JacobianMut;
@@ -23,6 +23,8 @@ pub(crate) struct Evaluation {
     drifts: TaskVectors,
     is_any_drifting: bool,
     jacobians: Vec<TaskJacobian>,
+    /// A task whose Jacobian, computed here, has an entry that is not a finite number.
+    unsound: Option<TaskId>,
     /// How many configurations this was at, the present one included.
     configurations: u64,
     /// Which tasks these are: their parameters have been changed so many times.
@@ -54,6 +56,7 @@ impl Evaluation {
             errors: TaskVectors::zeros(stack),
             drifts: TaskVectors::zeros(stack),
             is_any_drifting: false,
+            unsound: None,
             jacobians: stack
                 .iter()
                 .map(|(_, level)| TaskJacobian {
@@ -150,6 +153,7 @@ impl Evaluation {
 
     fn forget(&mut self) {
         self.configurations += 1;
+        self.unsound = None;
         self.is_still_known = false;
     }
 
@@ -228,6 +232,11 @@ impl Evaluation {
         })
     }
 
+    /// A task whose Jacobian has an entry that is not a finite number, among those that were needed here.
+    pub(crate) fn unsound(&self) -> Option<TaskId> {
+        self.unsound
+    }
+
     /// σ of every task.
     pub(crate) fn values(&self) -> &TaskVectors {
         &self.values
@@ -285,6 +294,9 @@ impl Evaluation {
             let mut target = JacobianMut::new(&mut jacobian.entries, stack.dof());
             stack[task].task().jacobian(&self.kinematics, &mut target);
             jacobian.configuration = self.configurations;
+            if not_finite(&jacobian.entries).is_some() {
+                self.unsound = self.unsound.or(Some(task));
+            }
         }
         &jacobian.entries
     }

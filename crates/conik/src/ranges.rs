@@ -69,10 +69,14 @@ impl Ranges {
         }
     }
 
-    /// Takes back what rounding put beyond a range.
+    /// Takes back what rounding put beyond a range. NaN stays what it is.
     pub(crate) fn clamp(&self, velocity: &mut [f64]) {
         for ((least, greatest), speed) in self.iter().zip(velocity) {
-            *speed = speed.max(least).min(greatest);
+            if *speed < least {
+                *speed = least;
+            } else if *speed > greatest {
+                *speed = greatest;
+            }
         }
     }
 

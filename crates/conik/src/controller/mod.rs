@@ -134,7 +134,13 @@ pub enum StepError {
         /// The task.
         task: TaskId,
     },
-    /// A Jacobian gave NaN or an infinite number, so that the velocity of a joint is none.
+    /// A Jacobian that this tick needs has an entry that is NaN or infinite.
+    #[error("the Jacobian of task {} (from 0) has an entry that is not a finite number", .task.index())]
+    JacobianNotFinite {
+        /// The task.
+        task: TaskId,
+    },
+    /// What the tasks ask is so much that the velocity of a joint is not a finite number.
     #[error("the velocity of joint {joint} (from 0) came out as no finite number")]
     VelocityNotFinite {
         /// Index of the joint.
@@ -211,6 +217,10 @@ impl Controller {
         let mut pivots = MAX_PIVOTS - reserved;
         self.raise_barrier(&mut pivots);
         let proposal = self.propose(&mut pivots);
+        // No program tells NaN from what it asks, and none may make a velocity of it.
+        if let Some(task) = self.here.unsound() {
+            return Err(StepError::JacobianNotFinite { task });
+        }
         let is_cut_off = pivots == 0;
         pivots += reserved;
         if let Some(joint) = not_finite(&self.qd) {
