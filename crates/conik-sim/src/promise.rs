@@ -9,9 +9,12 @@
 //! blame, and whoever relies on the exit status wants to know; the message says that it was announced.
 //! What was *not* announced is broken besides, however small it is: that the next sample is inside, or
 //! that this tick says that it is not, is promised without a tolerance.
+//!
+//! Who changes the border while the run goes on takes the promise away.
 
 use std::fmt;
 
+use crate::live::Change;
 use crate::scenario::{Border, Choice};
 use crate::summary::{Outcome, Summary};
 
@@ -49,11 +52,18 @@ impl fmt::Display for BrokenPromise<'_> {
 }
 
 impl Summary {
+    /// Whether people chose another border while the run went on: then nothing is promised of the whole.
+    fn was_border_changed(&self) -> bool {
+        let mut changes = self.changes.iter().flat_map(|made| &made.changes);
+        changes
+            .any(|change| matches!(change, Change::Control { control, .. } if control == "border"))
+    }
+
     /// The promises that the run did not keep, in the order of the properties; then a sample outside
     /// that was not announced.
     pub fn broken_promises(&self) -> Vec<BrokenPromise<'_>> {
         let border = self.settings.scenario.control.border;
-        if border == Border::Freeze || self.modes.is_empty() {
+        if border == Border::Freeze || self.modes.is_empty() || self.was_border_changed() {
             return vec![];
         }
         let unannounced = self.monitors.as_ref().map(|seen| &seen.unannounced);

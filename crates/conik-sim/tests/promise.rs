@@ -12,7 +12,7 @@ use conik_sim::scenario::{
     TaskKind,
 };
 use conik_sim::summarise::Summariser;
-use conik_sim::summary::{Outcome, Property, Settings, Summary};
+use conik_sim::summary::{ChangeMade, Outcome, Property, Settings, Summary};
 
 /// The paper's Example 2 under the default rules.
 fn example2() -> Scenario {
@@ -312,4 +312,22 @@ fn summaries_of_earlier_builds_are_still_read() {
     assert_eq!(read.landing, None);
     assert_eq!((read.monitors, read.tasks["view"].held_times), (None, None));
     assert_eq!(read.tasks["view"].max, summary.tasks["view"].max);
+}
+
+#[test]
+fn whoever_changes_the_border_meanwhile_takes_the_promise_away() {
+    let mut scenario = example2();
+    scenario.control.duration_s = 0.1;
+    let (_, mut summary) = run_of(scenario);
+    summary.properties.inside_stays = dip(0.0021);
+    let change = |text: &str| {
+        let changes = serde_json::from_str(text).expect("a change");
+        ChangeMade::of(vec![changes])
+    };
+    let gain = r#"{"task": "position", "key": "gain_per_s", "value": 0.5}"#;
+    summary.changes = vec![change(gain)];
+    assert_eq!(summary.faults().len(), 1, "other changes leave it as it is");
+    let border = r#"{"control": "border", "value": "freeze"}"#;
+    summary.changes.push(change(border));
+    assert_eq!(summary.faults(), [""; 0]);
 }

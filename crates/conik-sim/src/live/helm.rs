@@ -115,6 +115,7 @@ impl Helm {
     }
 
     /// Sets how fast the time of the run goes, in that on the wall, at least [`Self::LEAST_SPEED`].
+    /// An arm with a clock of its own goes no faster than that clock.
     pub fn set_speed(&self, factor: f64) {
         let factor = if factor.is_finite() { factor } else { 1.0 };
         let factor = factor.max(Self::LEAST_SPEED);

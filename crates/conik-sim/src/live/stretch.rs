@@ -140,8 +140,10 @@ impl Stretch {
         for mover in &mut self.experiment.movers {
             let index = mover.task.index();
             let then = self.before[index];
-            let mut movers = before.experiment.movers.iter();
-            if let Some(old) = movers.find(|old| old.task == then) {
+            // They stand in the order of their tasks.
+            let movers = &before.experiment.movers;
+            let found = movers.binary_search_by_key(&then.index(), |old| old.task.index());
+            if let Some(old) = found.ok().and_then(|place| movers.get(place)) {
                 self.is_new[index] |= !mover.glide_from(old, t_s);
             }
         }

@@ -156,6 +156,9 @@ fn finish(
         _log,
     } = finished;
     let mut summary = summariser.finish(&ended, settings, env!("CARGO_PKG_VERSION"));
+    if let Some(live) = live {
+        summary.changes = live.changes();
+    }
     let mut errors = summary.faults();
     let drawable = written.is_ok() && !summary.modes.is_empty();
     if let Err(error) = written {
@@ -168,7 +171,6 @@ fn finish(
         }
     }
     if let Some(live) = live {
-        summary.changes = live.changes();
         live.end(summary.outcome.clone());
     }
     if let Err(error) = write_summary(out, &summary) {

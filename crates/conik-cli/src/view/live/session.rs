@@ -61,6 +61,8 @@ pub(super) struct Session {
     pub(super) first: Scenario,
     pub(super) present: Scenario,
     pub(super) revision: u64,
+    /// How often the run was begun anew.
+    pub(super) restarts: u64,
     pub(super) scene: Scene,
     pub(super) from_s: f64,
     /// By what name to tell of each task that glides.
@@ -101,6 +103,7 @@ impl Live {
                 first: scenario.clone(),
                 present: scenario.clone(),
                 revision: 0,
+                restarts: 0,
                 scene,
                 from_s: 0.0,
                 gliding_names: gliding_names(scenario),
@@ -160,6 +163,7 @@ impl Live {
         session.history = History::of(&Experiment::new(&scenario)?, MOST_ROWS);
         session.gliding_names = gliding_names(&scenario);
         session.first = scenario.clone();
+        session.restarts += 1;
         session.is_to_reset = true;
         session.t_s = 0.0;
         session.from_s = 0.0;
@@ -174,9 +178,13 @@ impl Live {
 
     /// What happened so far, as of a recorded run.
     pub(in crate::view) fn recording(&self) -> String {
-        let session = &mut *self.session();
-        self.send_unsent(session);
-        Recording::of_live(&self.name, session.scene.clone(), session.history.all()).to_json()
+        let (scene, ticks) = {
+            let session = &mut *self.session();
+            self.send_unsent(session);
+            (session.scene.clone(), session.history.all())
+        };
+        // Much to write: who takes in the next tick is not to wait for it.
+        Recording::of_live(&self.name, scene, ticks).to_json()
     }
 
     /// Sends to all clients what is new.
@@ -200,14 +208,13 @@ impl Live {
     }
 
     fn send_unsent(&self, session: &mut Session) {
-        let reset = std::mem::take(&mut session.is_to_reset);
-        let ticks = if reset {
-            Some(session.history.all())
-        } else {
-            session.history.unsent()
-        };
-        if let Some(ticks) = ticks {
-            self.send(&session.ticks_message(ticks, reset));
+        if self.bundles.receiver_count() == 0 {
+            return;
+        }
+        if std::mem::take(&mut session.is_to_reset) {
+            self.send(&json(&session.all_ticks(true)));
+        } else if let Some(ticks) = session.history.unsent() {
+            self.send(&json(&session.live_ticks(ticks, false)));
         }
     }
 
@@ -220,16 +227,20 @@ impl Live {
     pub(super) fn greet(&self) -> (Vec<String>, broadcast::Receiver<Utf8Bytes>) {
         self.viewers.fetch_add(1, Ordering::Relaxed);
         self.helm.begin();
-        let session = &mut *self.session();
-        self.send_unsent(session);
-        let ticks = session.history.all();
-        let messages = vec![
-            json(&Told::hello()),
-            session.scene_message(&self.name, true),
-            session.ticks_message(ticks, true),
-            json(&Told::State(self.state(session))),
-        ];
-        (messages, self.bundles.subscribe())
+        let (scene, ticks, state, bundles) = {
+            let session = &mut *self.session();
+            self.send_unsent(session);
+            // What others would have to be told anew, this one is told at first.
+            session.is_to_reset &= self.bundles.receiver_count() > 0;
+            (
+                session.scene_message(&self.name, true),
+                session.all_ticks(true),
+                self.state(session),
+                self.bundles.subscribe(),
+            )
+        };
+        let (ticks, state) = (json(&ticks), json(&Told::State(state)));
+        (vec![json(&Told::hello()), scene, ticks, state], bundles)
     }
 
     /// A client is gone.
@@ -277,7 +288,13 @@ impl Session {
         })
     }
 
-    fn ticks_message(&self, ticks: Ticks, reset: bool) -> String {
+    /// Everything that has happened.
+    fn all_ticks(&mut self, reset: bool) -> LiveTicks {
+        let ticks = self.history.all();
+        self.live_ticks(ticks, reset)
+    }
+
+    fn live_ticks(&self, ticks: Ticks, reset: bool) -> LiveTicks {
         let mut gliding: Vec<Glide> = Vec::new();
         for it in self.history.gliding() {
             let name = &self.gliding_names[it.task.index()];
@@ -286,11 +303,11 @@ impl Session {
                 gliding.push(Glide::of(name, it));
             }
         }
-        json(&LiveTicks {
+        LiveTicks {
             ticks,
             reset,
             gliding,
-        })
+        }
     }
 }
 

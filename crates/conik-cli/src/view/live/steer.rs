@@ -48,8 +48,11 @@ impl Live {
 
     /// The number of the newest change, after it was done.
     fn act(&self, what: Asked) -> Result<u64, String> {
-        let session = &mut *self.session();
-        let allowed = Allowed::with(self.arm, session.outcome.is_some());
+        let (has_ended, revision) = {
+            let session = self.session();
+            (session.outcome.is_some(), session.revision)
+        };
+        let allowed = Allowed::with(self.arm, has_ended);
         let helm = &self.helm;
         match what {
             Asked::Pause => {
@@ -84,17 +87,18 @@ impl Live {
             }
             Asked::Reset => {
                 allowed.check(Act::Change)?;
-                let original = session.original.clone();
-                self.go_by(session, original, &[], ChangeMade::all_taken_back())?;
+                let known = Known::of(&self.session());
+                let original = self.session().original.clone();
+                return self.go_by(&known, original, &[], ChangeMade::all_taken_back());
             }
             Asked::Change { changes } => {
                 allowed.check(Act::Change)?;
-                self.change(session, changes)?;
+                return self.change(changes);
             }
             // Answered by others.
             Asked::Save => {}
         }
-        Ok(session.revision)
+        Ok(revision)
     }
 
     /// The greatest speed at which the run may go.
@@ -105,29 +109,58 @@ impl Live {
         }
     }
 
-    fn change(&self, session: &mut Session, changes: Vec<Change>) -> Result<(), String> {
-        let changed = session.present.changed(&changes, session.t_s);
+    fn change(&self, changes: Vec<Change>) -> Result<u64, String> {
+        let known = Known::of(&self.session());
+        let changed = known.present.changed(&changes, known.t_s);
         let (scenario, speeds) = changed.map_err(|error| error.to_string())?;
-        self.go_by(session, scenario, &speeds, ChangeMade::of(changes))
+        self.go_by(&known, scenario, &speeds, ChangeMade::of(changes))
     }
 
+    /// Lets the run go by another scenario; the number of that change. What takes long is done while
+    /// nobody else waits for the session.
     fn go_by(
         &self,
-        session: &mut Session,
+        known: &Known,
         scenario: Scenario,
         speeds: &[(String, GlideSpeed)],
         made: ChangeMade,
-    ) -> Result<(), String> {
-        let stretch = Stretch::next(&session.first, &scenario, speeds);
-        let stretch = stretch.map_err(|error| error.to_string())?;
+    ) -> Result<u64, String> {
+        let stretch = Stretch::next(&known.first, &scenario, speeds);
+        let stretch = Box::new(stretch.map_err(|error| error.to_string())?);
         let scene = Scene::live(&scenario, &self.arm_name, true);
-        session.scene = scene.map_err(|error| error.to_string())?;
+        let scene = scene.map_err(|error| error.to_string())?;
+        let session = &mut *self.session();
+        if (session.revision, session.restarts) != (known.revision, known.restarts) {
+            return Err("the run was begun anew meanwhile: ask again".to_owned());
+        }
+        session.scene = scene;
         session.revision += 1;
         session.from_s = session.t_s;
-        self.helm.hand_over(Box::new(stretch), session.revision);
+        self.helm.hand_over(stretch, session.revision);
         session.present = scenario;
         session.made.push((session.revision, made));
         self.send(&session.scene_message(&self.name, false));
-        Ok(())
+        Ok(session.revision)
+    }
+}
+
+/// What a change starts from.
+struct Known {
+    first: Scenario,
+    present: Scenario,
+    t_s: f64,
+    revision: u64,
+    restarts: u64,
+}
+
+impl Known {
+    fn of(session: &Session) -> Self {
+        Self {
+            first: session.first.clone(),
+            present: session.present.clone(),
+            t_s: session.t_s,
+            revision: session.revision,
+            restarts: session.restarts,
+        }
     }
 }
