@@ -114,7 +114,7 @@ describe("a scenario that runs in the page", () => {
     expect(download.suggestedFilename()).toBe("example2-edited.toml");
     const toml = await readFile(await download.path(), "utf8");
     expect(toml).toContain('mode_rule = "cone"');
-    expect(toml.indexOf("obstacle_b")).toBeLessThan(toml.indexOf("obstacle_a"));
+    expect(toml.indexOf('name = "obstacle_b"')).toBeLessThan(toml.indexOf('name = "obstacle_a"'));
   });
 
   test("stays in the page when the command ends", async () => {
