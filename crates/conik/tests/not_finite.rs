@@ -55,6 +55,9 @@ fn position(stack: &mut Stack) {
         .expect("sound");
 }
 
+/// Adds the broken task to a stack, and others.
+type Fill = fn(&mut Stack, Broken);
+
 #[test]
 fn jacobian_that_is_no_number_is_an_error_under_every_setting() {
     let plain = Robot::builtin("ur5-paper").expect("built in");
@@ -72,7 +75,7 @@ fn jacobian_that_is_no_number_is_an_error_under_every_setting() {
                     border,
                     ..Settings::at_rate(125.0)
                 };
-                let stacks: [(&str, fn(&mut Stack, Broken)); 3] = [
+                let stacks: [(&str, Fill); 3] = [
                     ("first equality", |stack, broken| {
                         stack.equality("own", broken, &[0.5], 1.0).expect("sound");
                         position(stack);

@@ -63,12 +63,11 @@ describe("a scenario that runs in the page", () => {
   });
 
   test("evades an obstacle that is put in its way, whose set becomes active", async () => {
-    const [x, y, z] = ["tool_x_m", "tool_y_m", "tool_z_m"].map((axis) => async () => {
-      const { runs } = await recording();
-      return runs[0]!.ticks.columns[axis]!.at(-1)!;
-    }) as [() => Promise<number>, () => Promise<number>, () => Promise<number>];
-    const tool = [await x(), await y(), await z()];
     expect(await row("obstacle_b").getAttribute("data-state")).toBe("inside");
+    await press("Pause the run");
+    await page.locator(".state-chip[data-kind=paused]").waitFor();
+    const { columns } = (await recording()).runs[0]!.ticks;
+    const tool = ["tool_x_m", "tool_y_m", "tool_z_m"].map((axis) => columns[axis]!.at(-1)!);
     await press("Change obstacle_b");
     const editor = row("obstacle_b").locator(".editor");
     for (const [nth, axis] of ["x", "y", "z"].entries()) {
@@ -76,7 +75,12 @@ describe("a scenario that runs in the page", () => {
       await field.fill(String(Number(tool[nth]!.toFixed(3))));
       await field.press("Enter");
     }
-    await expect.poll(() => row("obstacle_b").getAttribute("data-state")).toBe("held");
+    await press("Resume the run");
+    const wasHeld = async () => {
+      const { active, active_sets } = (await recording()).runs[0]!.ticks;
+      return active.some((nth) => active_sets[nth]?.includes("obstacle_b"));
+    };
+    await expect.poll(wasHeld).toBe(true);
     // Its ball has a radius of 150 mm, and the arm stays out of it.
     await expect.poll(async () => Number.parseFloat((await row("obstacle_b").locator(".value").textContent())!)).toBeGreaterThan(145);
     await row("obstacle_b").locator(".changed").waitFor();

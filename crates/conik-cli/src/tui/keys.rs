@@ -1,5 +1,7 @@
 //! What the keys do.
 
+mod keyboard;
+
 use std::io;
 use std::sync::atomic::Ordering;
 use std::sync::mpsc::SyncSender;
@@ -8,6 +10,8 @@ use std::time::Duration;
 use ratatui_crossterm::crossterm::event::{
     self, Event, KeyCode, KeyEvent, KeyEventKind, KeyModifiers,
 };
+
+use keyboard::Keyboard;
 
 use super::Shared;
 use super::course::Course;
@@ -100,8 +104,10 @@ pub(super) fn read(shared: &Shared, pressed: &SyncSender<Key>) {
 }
 
 fn read_all(shared: &Shared, pressed: &SyncSender<Key>) -> io::Result<()> {
+    let keyboard = Keyboard::find()?;
     while !shared.is_closing.load(Ordering::Relaxed) {
-        if !event::poll(LOOK_EVERY)? {
+        keyboard.wait(LOOK_EVERY)?;
+        if !event::poll(Duration::ZERO)? {
             continue;
         }
         match Key::of(&event::read()?) {

@@ -199,9 +199,13 @@ impl Tui {
 
     fn close(&mut self) -> bool {
         let is_restored = self.shared.close();
-        // They end by themselves; one that failed has said so.
+        // They end by themselves; one that failed has said so. A terminal that was hung up the moment a key
+        // was read holds that thread for ever.
         if let Some(keys) = self.keys.take() {
-            let _ = keys.join();
+            let begin = Instant::now();
+            while !keys.is_finished() && begin.elapsed() < PATIENCE {
+                thread::sleep(Duration::from_millis(1));
+            }
         }
         if let Some(screen) = self.screen.take().filter(|_| is_restored) {
             let _ = screen.join();

@@ -82,6 +82,11 @@ impl Terminal {
         self.person.write_all(keys.as_bytes()).unwrap();
     }
 
+    /// Closes the window, as long as nobody [`read`](Self::read)s.
+    fn hang_up(&mut self) {
+        self.person = File::open("/dev/null").unwrap();
+    }
+
     fn status(&mut self) -> Option<i32> {
         wait_for("the end of the process", || self.child.try_wait().unwrap()).code()
     }
@@ -211,6 +216,32 @@ fn q_is_heard_at_a_terminal_that_nobody_reads() {
     assert!(rows(&folder) > 0);
     assert!(!terminal.is_raw());
     assert_was_stalled(&terminal);
+}
+
+#[test]
+fn terminal_that_is_hung_up_ends_the_command_and_not_the_run() {
+    let folder = empty_folder("terminal-gone");
+    let options = "--robot emulator --duration-s 2 --out out";
+    let scenario = patient(&folder);
+    let mut terminal = Terminal::run(&folder, &scenario, options);
+    let mut byte = [0];
+    terminal.person.read_exact(&mut byte).unwrap();
+    terminal.hang_up();
+    assert_eq!(terminal.status(), Some(0));
+    assert_eq!(outcome(&folder), Some("completed".to_owned()));
+    assert_eq!(rows(&folder), 251);
+}
+
+#[test]
+fn terminal_that_is_hung_up_after_the_end_ends_the_command() {
+    let folder = empty_folder("terminal-gone-later");
+    let options = "--robot ideal --out out";
+    let mut terminal = Terminal::run(&folder, &paper("example2"), options);
+    wait_for("the report", || {
+        folder.join("out/report.html").exists().then_some(())
+    });
+    terminal.hang_up();
+    assert_eq!(terminal.status(), Some(0));
 }
 
 #[test]
