@@ -99,7 +99,7 @@ impl Key {
 /// Reads keys until the view is closed. Where none can be read, nobody is waited for after the run.
 pub(super) fn read(shared: &Shared, pressed: &SyncSender<Key>) {
     if read_all(shared, pressed).is_err() {
-        shared.is_left.store(true, Ordering::Relaxed);
+        shared.is_gone.store(true, Ordering::Relaxed);
     }
 }
 

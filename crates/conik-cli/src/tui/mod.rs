@@ -73,6 +73,8 @@ struct Shared {
     stop: Arc<AtomicBool>,
     /// Nobody wants to look any more.
     is_left: AtomicBool,
+    /// There is no terminal any more: it was hung up.
+    is_gone: AtomicBool,
     /// The view is to end.
     is_closing: AtomicBool,
     /// The terminal is as it was.
@@ -142,6 +144,7 @@ impl Tui {
             warnings,
             stop: Arc::clone(stop),
             is_left: AtomicBool::new(false),
+            is_gone: AtomicBool::new(false),
             is_closing: AtomicBool::new(false),
             is_restored: AtomicBool::new(false),
             screen: OnceLock::new(),
@@ -180,21 +183,22 @@ impl Tui {
     }
 
     /// Shows how the run ended until somebody presses q, or has stopped the run by hand; then gives
-    /// the terminal back. Returns `false` if the terminal takes nothing any more: printing to it would wait
-    /// for ever.
+    /// the terminal back. Returns `false` if the terminal takes nothing any more: printing to it would fail, or
+    /// wait for ever.
     pub fn stay(&mut self, outcome: &Outcome) -> bool {
         self.shared.course().outcome = Some(outcome.clone());
         self.shared.wake();
         let is_over = || {
             let shared = &self.shared;
             shared.is_left.load(Ordering::Relaxed)
+                || shared.is_gone.load(Ordering::Relaxed)
                 || shared.stop.load(Ordering::Relaxed)
                 || shared.is_restored.load(Ordering::Relaxed)
         };
         while !is_over() {
             thread::sleep(LOOK_EVERY);
         }
-        self.close()
+        self.close() && !self.shared.is_gone.load(Ordering::Relaxed)
     }
 
     fn close(&mut self) -> bool {

@@ -1,6 +1,7 @@
 //! The thread that draws, the only one that writes to the terminal while there is a view.
 
 use std::io::{self, BufWriter, Stdout};
+use std::mem::ManuallyDrop;
 use std::sync::Arc;
 use std::sync::atomic::Ordering;
 use std::sync::mpsc::Receiver;
@@ -41,14 +42,17 @@ impl Screen {
     /// Draws until the view is closed or the terminal is gone.
     pub(super) fn show(mut self) {
         // A terminal that is gone shows nothing; the run goes on.
-        let _ = self.draw_all();
+        if self.draw_all().is_err() {
+            self.shared.is_gone.store(true, Ordering::Relaxed);
+        }
         restore(&self.shared);
     }
 
     fn draw_all(&mut self) -> io::Result<()> {
         execute!(io::stdout(), terminal::EnterAlternateScreen, cursor::Hide)?;
         let out: BufWriter<Stdout> = BufWriter::with_capacity(1 << 16, io::stdout());
-        let mut terminal = Terminal::new(CrosstermBackend::new(out))?;
+        // Let go, it would tell that it cannot show the cursor of a terminal that is gone.
+        let mut terminal = ManuallyDrop::new(Terminal::new(CrosstermBackend::new(out))?);
         while !self.shared.is_closing.load(Ordering::Relaxed) {
             while let Ok(key) = self.pressed.try_recv() {
                 key.press(&mut self.looks, &self.shared.scene, &self.shared.course());
