@@ -225,8 +225,9 @@ fn terminal_that_is_hung_up_ends_the_command_and_not_the_run() {
     let options = "--robot emulator --duration-s 2 --out out";
     let scenario = patient(&folder);
     let mut terminal = Terminal::run(&folder, &scenario, options);
-    let mut byte = [0];
-    terminal.person.read_exact(&mut byte).unwrap();
+    let log = folder.join("out/log.csv");
+    let length = || std::fs::metadata(&log).map_or(0, |file| file.len());
+    wait_for("the first rows", || (length() > 0).then_some(()));
     terminal.hang_up();
     assert_eq!(terminal.status(), Some(0));
     assert_eq!(outcome(&folder), Some("completed".to_owned()));
