@@ -9,6 +9,9 @@ export interface Taker {
   take: (value: number | null, done: (error: string | null) => void) => void;
 }
 
+/** So soon after it was taken, what was asked for is seen in the scene. */
+const COMES_WITHIN_MS = 1000;
+
 let ids = 0;
 
 export class Field {
@@ -16,6 +19,8 @@ export class Field {
   private readonly input: HTMLInputElement;
   private readonly error = element("span", { class: "field-error", role: "alert" });
   private value: number | null = null;
+  /** What was asked for instead of which value, and is not there yet. */
+  private asked: { value: number | null; before: number | null; until_ms: number } | null = null;
 
   /** Where it is `optional` it may be empty. */
   constructor(label: string, private readonly unit: Unit, private readonly taker: Taker, private readonly isOptional = false) {
@@ -37,6 +42,9 @@ export class Field {
   set(value: number | null, isFrozen: boolean): void {
     this.value = value;
     this.input.disabled = isFrozen;
+    if (this.asked && (value !== this.asked.before || performance.now() > this.asked.until_ms)) this.asked = null;
+    // What came of it is shown when it has come.
+    if (this.asked) return;
     if (document.activeElement === this.input && this.input.dataset["touched"]) return;
     const text = value === null ? "" : written(value, this.unit);
     if (this.input.value !== text) this.input.value = text;
@@ -74,10 +82,16 @@ export class Field {
       this.restore();
       return;
     }
-    if (value === this.value || (value !== null && this.value !== null && this.input.value === written(this.value, this.unit))) return;
+    const present = this.asked ? this.asked.value : this.value;
+    if (value === present || (value !== null && present !== null && this.input.value === written(present, this.unit))) return;
+    const asked = { value, before: this.value, until_ms: Infinity };
+    this.asked = asked;
     this.taker.take(value, (error) => {
       this.complain(error);
-      if (error !== null) this.restore();
+      asked.until_ms = performance.now() + COMES_WITHIN_MS;
+      if (error === null) return;
+      this.asked = null;
+      this.restore();
     });
   }
 
