@@ -170,7 +170,7 @@ describe("as numbers", () => {
     await recovery.press("Enter");
     await expect.poll(() => mock.changes.at(-1)).toMatchObject({ key: "recovery_per_s", value: null });
     await expect.poll(() => mock.scene.tasks[0]!.recovery_per_s ?? null).toBe(null);
-    expect(await recovery.inputValue()).toBe("");
+    await expect.poll(() => recovery.inputValue()).toBe("");
   });
 
   test("a bound is dragged on its bar", async () => {
