@@ -68,17 +68,28 @@ pub enum ExperimentError {
 impl Experiment {
     /// Makes a scenario ready to run.
     pub fn new(scenario: &Scenario) -> Result<Self, ExperimentError> {
-        Self::with_movers(scenario, Mover::of)
+        Self::with_movers(scenario, Mover::of, |_, _| None)
+    }
+
+    /// The same, with tasks that no scenario has: for each task of the scenario `own` is asked, and what it
+    /// adds stands in its place.
+    pub fn with_own(
+        scenario: &Scenario,
+        own: impl FnMut(&mut Stack, &TaskConfig) -> Option<Result<TaskId, StackError>>,
+    ) -> Result<Self, ExperimentError> {
+        Self::with_movers(scenario, Mover::of, own)
     }
 
     /// The same, of which anything may be moved while it runs.
     pub fn changeable(scenario: &Scenario) -> Result<Self, ExperimentError> {
-        Self::with_movers(scenario, |task, config| Some(Mover::of_any(task, config)))
+        let any = |task, config: &TaskConfig| Some(Mover::of_any(task, config));
+        Self::with_movers(scenario, any, |_, _| None)
     }
 
     fn with_movers(
         scenario: &Scenario,
         mover: impl Fn(TaskId, &TaskConfig) -> Option<Mover>,
+        mut own: impl FnMut(&mut Stack, &TaskConfig) -> Option<Result<TaskId, StackError>>,
     ) -> Result<Self, ExperimentError> {
         let robot = limited_robot(&scenario.robot)?;
         let mut stack = Stack::new(&robot);
@@ -90,7 +101,10 @@ impl Experiment {
             tasks.push(named.map_err(|it| ExperimentError::Shapes(task.name.clone(), it))?);
         }
         for task in &tasks {
-            let id = add_task(&mut stack, &robot, task)?;
+            let id = match own(&mut stack, task) {
+                Some(added) => added?,
+                None => add_task(&mut stack, &robot, task)?,
+            };
             movers.extend(mover(id, task));
             stack.setpoints().set_damping(id, damping(task.damping))?;
             if let GoalConfig::Set {

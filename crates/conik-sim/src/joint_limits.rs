@@ -46,6 +46,17 @@ impl Scenario {
     }
 }
 
+impl RobotConfig {
+    /// The robot that controllers are made for, with the limits that are given here in the place of its own.
+    ///
+    /// # Errors
+    ///
+    /// If there is no such robot, or it cannot be placed or limited so.
+    pub fn limited(&self) -> Result<Robot, DescriptionError> {
+        limited_robot(self)
+    }
+}
+
 /// The model, with the scenario's limits in the place of its own.
 pub(crate) fn limited_robot(config: &RobotConfig) -> Result<Robot, DescriptionError> {
     let model = config.described()?;

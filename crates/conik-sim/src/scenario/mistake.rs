@@ -78,6 +78,17 @@ impl ScenarioErrors {
         self.joined(self.mistakes.iter().map(line))
     }
 
+    /// The messages without line and column, for what was not read from a file.
+    pub fn without_places(&self) -> String {
+        let line = |mistake: &Mistake| {
+            let Mistake {
+                key, what, help, ..
+            } = mistake;
+            format!("{}{what}; {help}", prefix(key))
+        };
+        self.joined(self.mistakes.iter().map(line))
+    }
+
     fn joined(&self, lines: impl Iterator<Item = String>) -> String {
         let more = (self.more > 0).then(|| format!("and {} more mistakes", self.more));
         lines.chain(more).collect::<Vec<_>>().join("\n")

@@ -72,7 +72,7 @@ pub use geometry::Geometry;
 pub use load::{LoadError, MAX_FILE_BYTES};
 pub use mistake::{Mistake, ScenarioErrors};
 pub use motion::Motion;
-pub use robot_source::{DescriptionError, PlacesConfig, RobotSource, UrdfConfig};
+pub use robot_source::{DescriptionError, PlacesConfig, RobotSource, Unreadable, UrdfConfig};
 pub use robots::{RobotFacts, known_robots};
 pub use schema::schema;
 pub use ur::{UrModel, UrSeries, UrSettings};

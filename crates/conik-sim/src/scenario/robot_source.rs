@@ -78,7 +78,30 @@ pub enum DescriptionError {
     },
 }
 
+/// A URDF file that cannot be read.
+#[derive(Clone, Debug, PartialEq, Eq, Error)]
+#[error("{0}")]
+pub struct Unreadable(String);
+
 impl UrdfConfig {
+    /// The robot of a URDF file, from `base` (`None`: the root) to `tool` and further tools.
+    ///
+    /// # Errors
+    ///
+    /// If the file cannot be read. What is wrong in it shows when the robot is made of it.
+    pub fn load(path: &Path, base: Option<String>, tool: Vec<String>) -> Result<Self, Unreadable> {
+        let urdf = path.to_string_lossy().into_owned();
+        match urdf_file::read(path) {
+            Ok(urdf_text) => Ok(Self {
+                urdf,
+                base,
+                tool,
+                urdf_text,
+            }),
+            Err(what) => Err(Unreadable(urdf + &what)),
+        }
+    }
+
     fn read(&self) -> Result<Described, UrdfError> {
         let options = Options {
             base: self.base.clone(),

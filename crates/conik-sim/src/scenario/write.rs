@@ -39,6 +39,15 @@ impl Scenario {
     }
 }
 
+impl RobotConfig {
+    /// The robot as the table `[robot]` of a scenario file.
+    pub fn to_toml(&self) -> String {
+        let mut file = Lines::default();
+        write_robot(self, &mut file);
+        file.text
+    }
+}
+
 /// The lines of the file written so far.
 #[derive(Default)]
 struct Lines {

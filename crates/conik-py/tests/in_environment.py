@@ -1,0 +1,49 @@
+"""Builds the wheel, installs it into an environment of its own, checks the stubs and runs the tests there.
+
+    python3 tests/in_environment.py [ARGUMENTS OF PYTEST]
+"""
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+HERE = Path(__file__).resolve().parent
+ROOT = HERE.parent.parent.parent
+sys.path.append(str(ROOT / "tests"))
+from environment import TARGET, provide_packages  # noqa: E402
+
+PACKAGES = [
+    "maturin==1.13.1",
+    "mypy==1.19.0",
+    "numpy==2.2.6",
+    "pandas==2.3.3",
+    "pandas-stubs==2.3.2.250926",
+    "polars==1.35.2",
+    "pytest==9.0.1",
+]
+
+
+def main():
+    python = provide_packages(TARGET / "conik-py-python", PACKAGES)
+    programs = python.parent
+    environment = {**os.environ, "VIRTUAL_ENV": str(programs.parent), "CARGO_TARGET_DIR": str(TARGET)}
+    environment["PATH"] = f"{programs}{os.pathsep}{environment['PATH']}"
+    wheels = TARGET / "wheels"
+    steps = [
+        [python, "-m", "maturin", "build", "--profile", "dev", "--quiet", "--out", wheels],
+        [python, "-m", "pip", "install", "--quiet", "--disable-pip-version-check", "--no-index", "--no-deps"]
+        + ["--force-reinstall", "--find-links", wheels, "conik"],
+        # The installed package, not the folder of its sources.
+        [python, "-m", "mypy", "--strict", "--package", "conik"],
+        [python, "-m", "mypy.stubtest", "conik._conik", "--ignore-disjoint-bases"],
+        [python, "-m", "pytest", "-q", HERE, *sys.argv[1:]],
+    ]
+    for step in steps:
+        done = subprocess.run(step, cwd=ROOT, env=environment)
+        if done.returncode != 0:
+            return done.returncode
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
