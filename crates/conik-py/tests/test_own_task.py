@@ -129,6 +129,7 @@ def test_task_that_moves_is_kept_from_what_comes(robot, start):
     task = Shrinking()
     stack = conik.Stack(robot)
     stack.set("radius", task, min=0.45)
+    stack.equality("posture", conik.Posture(start), gain=1)
     controller = conik.Controller(robot, stack)
     q = start
     for _ in range(125 * 6):
