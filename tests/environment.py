@@ -28,3 +28,18 @@ def provide_conik(path):
         subprocess.run(["cargo", "build", "--quiet", "--package", "conik-cli"], cwd=ROOT, check=True)
         path = TARGET / "debug" / ("conik.exe" if os.name == "nt" else "conik")
     return path
+
+
+def provide_wheel(python, wheel=None):
+    """Installs the Python package into an environment that has maturin; builds it if no wheel is given."""
+    install = [python, "-m", "pip", "install", "--quiet", "--disable-pip-version-check", "--no-index", "--no-deps"]
+    if wheel is not None:
+        subprocess.run([*install, "--force-reinstall", wheel], check=True)
+        return
+    programs = python.parent
+    environment = {**os.environ, "VIRTUAL_ENV": str(programs.parent), "CARGO_TARGET_DIR": str(TARGET)}
+    environment["PATH"] = f"{programs}{os.pathsep}{environment['PATH']}"
+    wheels = TARGET / "wheels"
+    build = [python, "-m", "maturin", "build", "--profile", "dev", "--quiet", "--out", wheels]
+    subprocess.run(build, cwd=ROOT, env=environment, check=True)
+    subprocess.run([*install, "--force-reinstall", "--find-links", wheels, "conik"], check=True)
