@@ -3,6 +3,7 @@
     <!-- run -->                    Python, TOML, console: it is run; Python goes on in the page's namespace
     <!-- run: new -->               Python: in a namespace of its own, which later snippets share
     <!-- run: NAME.toml -->         TOML: saved under that name first
+    <!-- run: NAME.toml above X --> TOML: put into that file, above the task X
     <!-- run: beside conik ... -->  Python: while this command runs, with `page`, the address that it prints
     <!-- prints -->                 text: all that the Python snippet before printed
     <!-- from PATH -->              its lines stand in this file of the repository, one after the other
@@ -75,3 +76,17 @@ def plain(lines):
     """Lines as they are without indentation, marks of comments and what documentation hides."""
     shown = [re.sub(r"^\s*(//[/!]\s?)?", "", line).strip() for line in lines]
     return [line for line in shown if line and not line.startswith("# ")]
+
+
+def scenario(snippet, folder):
+    """The text of a TOML snippet, after saving it in the folder if its comment says so."""
+    name, _, above = snippet.detail.partition(" above ")
+    if not name:
+        return snippet.text
+    text = snippet.text
+    if above:
+        before = (folder / name).read_text(encoding="utf-8")
+        at = before.index(f'[[task]]\nname = "{above}"\n')
+        text = f"{before[:at]}{text}\n{before[at:]}"
+    (folder / name).write_text(text, encoding="utf-8")
+    return text
