@@ -10,12 +10,14 @@
     <!-- not run: REASON -->        it is not
 """
 import re
+import textwrap
 from dataclasses import dataclass
 from pathlib import Path
 
 LANGUAGES = ("python", "toml", "rust", "console")
 FENCE = re.compile(
-    r"(?:^<!-- (?P<mark>[^\n]*?) -->\n)?^```(?P<language>\w*)\n(?P<text>.*?)^```$", re.MULTILINE | re.DOTALL
+    r"(?:^ *<!-- (?P<mark>[^\n]*?) -->\n)?^(?P<indent> *)```(?P<language>\w*)\n(?P<text>.*?)^(?P=indent)```$",
+    re.MULTILINE | re.DOTALL,
 )
 
 
@@ -47,7 +49,7 @@ def read(page):
         mark, detail = match["mark"] or "", ""
         if parts := re.fullmatch(r"(run|not run): (.*)|(from) (.*)", mark):
             mark, detail = parts[1] or parts[3], parts[2] or parts[4]
-        found.append(Snippet(page, line, match["language"], mark, detail, match["text"]))
+        found.append(Snippet(page, line, match["language"], mark, detail, textwrap.dedent(match["text"])))
     return found
 
 
