@@ -47,6 +47,9 @@ def on_files(files, config):
 def on_page_markdown(markdown, page, config, files):
     """Turns links to files of the repository to their pages."""
     uri = page.file.src_uri
+    if uri in sources:
+        # Who searches looks for words about files, not for every line of them.
+        page.meta["search"] = {"exclude": True}
 
     def turned(link):
         target = outside(uri, link[2])
@@ -57,12 +60,6 @@ def on_page_markdown(markdown, page, config, files):
         return f"{link[1]}{away}{link[4]}"
 
     return "".join(LINK.sub(turned, part) if is_prose else part for is_prose, part in parts(markdown))
-
-
-def on_page_context(context, page, config, nav):
-    """Keeps files of the repository out of what the search finds."""
-    if page.file.src_uri in sources:
-        page.meta.setdefault("search", {"exclude": True})
 
 
 def parts(markdown):

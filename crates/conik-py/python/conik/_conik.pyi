@@ -34,15 +34,25 @@ class StepError(ConikError):
 
 @final
 class Robot:
-    """A robot: the joints between its base and its tool."""
+    """A robot: the joints between its base and its tool.
+
+    It never changes: what puts it elsewhere or gives it other limits returns another robot.
+    """
 
     @staticmethod
     def builtin(name: str) -> Robot:
-        """A robot that conik knows: "ur5-paper", "ur5e", "panda", ... (`Robot.builtin_names()`)."""
+        """A robot that conik knows, from its maker's figures.
+
+        Arguments:
+            name: "ur5-paper", "ur5e", "panda", ...; `Robot.builtin_names()` has all.
+
+        Raises:
+            ScenarioError: there is none of that name.
+        """
 
     @staticmethod
     def builtin_names() -> list[str]:
-        """Names that `builtin` knows."""
+        """Names that `Robot.builtin` knows."""
 
     @staticmethod
     def from_urdf(
@@ -51,15 +61,34 @@ class Robot:
         """A robot from a URDF file.
 
         Its joints are those that move on the way from `base` (by default the root) to `tool`, in that order,
-        then those on the way to further tools. Without `tool` the tree must have one end.
+        then those on the way to further tools. Every link has a frame. Position limits of the file become sets of
+        high priority, its speed limits hold too.
+
+        Arguments:
+            path: the file. Xacro must be expanded first.
+            tool: the link that is the tool, or a list: the first is the tool, and the joints on the way to the
+                others move too. Without it the tree must have one end.
+            base: the link that stands still, by default the root of the tree.
+
+        Raises:
+            ScenarioError: the file cannot be read, or has mistakes, with the place of each.
         """
 
     def standing_at(self, *, position: Vector | None = None, rpy: Vector | None = None) -> Robot:
-        """The same with its base elsewhere in the world: `position` [m], and roll, pitch, yaw [rad]."""
+        """The same with its base elsewhere in the world.
+
+        Arguments:
+            position: of the base in the world [m], shape (3,); by default at the origin.
+            rpy: roll, pitch and yaw about the fixed x, then y, then z axis [rad], shape (3,); by default not turned.
+        """
 
     def with_tool_offset(self, position: Vector | None = None, rpy: Vector | None = None) -> Robot:
-        """The same with its tool elsewhere on the link that carries it: `position` [m] and roll, pitch, yaw
-        [rad] in the frame of that link."""
+        """The same with its tool elsewhere on the link that carries it.
+
+        Arguments:
+            position: of the tool in the frame of that link [m], shape (3,); by default at its origin.
+            rpy: roll, pitch and yaw about the fixed x, then y, then z axis [rad], shape (3,); by default not turned.
+        """
 
     def with_limits(
         self,
@@ -68,11 +97,23 @@ class Robot:
         speed: list[float] | None = None,
         acceleration: list[float] | None = None,
     ) -> Robot:
-        """The same with other limits of its joints, one entry for each: least and greatest position [rad or m]
-        or None, greatest speed [rad/s or m/s], greatest acceleration [rad/s^2 or m/s^2]."""
+        """The same with other limits of its joints. A kind that is not given stays as it is.
+
+        Position limits are sets of high priority, named `limit/<joint>`. Speed limits shorten the whole velocity.
+        Accelerations give way only to a set that could not be kept otherwise.
+
+        Arguments:
+            position: for each joint the least and the greatest position [rad or m], or None.
+            speed: for each joint the greatest speed [rad/s or m/s].
+            acceleration: for each joint the greatest acceleration [rad/s^2 or m/s^2].
+
+        Raises:
+            ScenarioError: a number is missing, or makes no sense.
+        """
 
     @property
-    def name(self) -> str: ...
+    def name(self) -> str:
+        """Its name: that of the built-in robot, or that in the file."""
     @property
     def dof(self) -> int:
         """Number of joints."""
@@ -102,15 +143,29 @@ class Robot:
         """Greatest acceleration of each joint [rad/s^2 or m/s^2]."""
 
     def forward_kinematics(self, q: Vector, link: str | None = None) -> _Array:
-        """Pose of a link, by default the tool: base_from_tool, shape (4, 4) [m]; in the world, if the robot was
-        put elsewhere. `q`: joint positions [rad or m], shape (dof,)."""
+        """Pose of a link.
+
+        Arguments:
+            q: joint positions [rad or m], shape (dof,).
+            link: its name; by default the tool.
+
+        Returns:
+            base_from_link [-, the last column m], shape (4, 4); world_from_link, if the robot was put elsewhere.
+
+        Raises:
+            ScenarioError: `q` has another length, or there is no such link.
+        """
 
     def kinematics(self, q: Vector) -> Kinematics:
-        """All that follows from one configuration [rad or m], shape (dof,)."""
+        """All that follows from one configuration: poses and Jacobians, as an `OwnTask` gets them.
+
+        Arguments:
+            q: joint positions [rad or m], shape (dof,).
+        """
 
 @final
 class Kinematics:
-    """A robot in one configuration."""
+    """A robot in one configuration: poses of its links, and their Jacobians."""
 
     @property
     def q(self) -> _Array:
@@ -121,15 +176,29 @@ class Kinematics:
         """Number of joints."""
 
     def world_from(self, link: str | None = None) -> _Array:
-        """Pose of a link in the world, by default of the tool: shape (4, 4) [m]."""
+        """Pose of a link in the world.
+
+        Arguments:
+            link: its name; by default the tool.
+
+        Returns:
+            world_from_link [-, the last column m], shape (4, 4).
+        """
 
     def jacobian(self, link: str | None = None) -> _Array:
-        """Jacobian of a link, by default of the tool, in the axes of the world: shape (6, dof), three rows of the
-        velocity of its origin [m/rad, or 1 of a sliding joint], then three of its angular velocity."""
+        """Jacobian of a link, in the axes of the world.
+
+        Arguments:
+            link: its name; by default the tool.
+
+        Returns:
+            Shape (6, dof): three rows of the velocity of the link's origin [m/rad, of a joint that slides -], then
+                three of its angular velocity [-, of a joint that slides rad/m].
+        """
 
 @final
 class Step:
-    """One tick: what was decided, and why."""
+    """One tick: what was decided, and why. It stays what it is when the controller goes on."""
 
     @property
     def qd(self) -> _Array:
@@ -145,7 +214,8 @@ class Step:
 
     @property
     def active(self) -> tuple[str, ...]:
-        """Names of the active sets."""
+        """Names of the active sets, the most important first: those that are held at their border, or driven
+        back to it."""
 
     @property
     def values(self) -> dict[str, Any]:
@@ -157,11 +227,11 @@ class Step:
 
     @property
     def why(self) -> list[str]:
-        """Why the tick came out as it did, in sentences."""
+        """Why the tick came out as it did, in sentences, with figures."""
 
     @property
     def codes(self) -> list[str]:
-        """The same for programs: `hold:obstacle`, `speed:q3`."""
+        """The same for programs: `hold:obstacle`, `speed:q3`, those of the column `why` of `log.csv`."""
 
     @property
     def stood_still(self) -> bool:

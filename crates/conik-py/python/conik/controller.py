@@ -82,16 +82,24 @@ class Controller(_Controller):
 
         Arguments:
             name: the task.
-            min, max, min_rate, max_rate: bounds of a set [task's unit], and how fast they move [per s]. One that
-                is not given stays as it is; an infinite one is none.
-            target: of `Position` and `Pose` [m], with `velocity` [m/s].
-            point: of `Distance` and `LookAt` [m], with `velocity` [m/s].
-            direction: of `FieldOfView` and `PointingAngle`, with `angular_velocity` [rad/s].
-            orientation: of `Pose`, `Orientation`, `OrientationAngle`: a matrix of 3 x 3 or a quaternion with its
-                real part first, with `angular_velocity` [rad/s].
-            offset: of `Plane` [m], with `offset_rate` [m/s].
+            min: least value of a set [task's unit]; one that is not given stays as it is, -inf is none.
+            max: greatest value [task's unit]; likewise, inf is none.
+            min_rate: how fast `min` moves [task's unit/s].
+            max_rate: how fast `max` moves [task's unit/s].
+            target: point of `Position` and `Pose` [m], shape (3,), with `velocity`.
+            point: point of `Distance` and `LookAt` [m], shape (3,), with `velocity`.
+            velocity: how fast target or point moves, in the axes of the world or of `relative_to` [m/s],
+                shape (3,).
+            direction: of `FieldOfView` and `PointingAngle` [-], shape (3,), of any length but zero, with
+                `angular_velocity`.
+            orientation: of `Pose`, `Orientation`, `OrientationAngle` [-]: a matrix of shape (3, 3), or a
+                quaternion of shape (4,) with its real part first; with `angular_velocity`.
+            angular_velocity: how direction or orientation turns [rad/s], shape (3,).
+            offset: of `Plane` [m], with `offset_rate`.
+            offset_rate: how fast the plane moves along its normal [m/s].
             speed: of `JointSpeed` [rad/s or m/s].
-            desired: of other equality tasks [task's unit], with `desired_rate` [per s].
+            desired: of other equality tasks [task's unit]: a number, or one for each component.
+            desired_rate: how fast it moves [task's unit/s], of the same shape.
 
         Raises:
             ScenarioError: the task is not there, or has no such thing.

@@ -79,7 +79,11 @@ class Run:
         return np.column_stack(joints)
 
     def is_active(self, name: str) -> npt.NDArray[np.bool_]:
-        """Whether a set was active, for each tick."""
+        """Whether a set was active, for each tick: shape (ticks,).
+
+        Arguments:
+            name: of the set; one that was never active is active nowhere.
+        """
         has = np.array([name in active for active in self.active_sets], dtype=bool)
         return has[self.active]
 
@@ -123,7 +127,10 @@ def run(scenario: str | os.PathLike[str] | Mapping[str, Any]) -> Run:
 
     Arguments:
         scenario: the path of a scenario file, or its tables: {"robot": {...}, "control": {...}, "task": [...]},
-            with the file's own keys.
+            with the file's own keys and units. Arrays and numbers of numpy are taken.
+
+    Returns:
+        The log as arrays, and the summary.
 
     Raises:
         ScenarioError: every mistake in it, with its place and what would be right.

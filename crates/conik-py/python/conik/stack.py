@@ -46,9 +46,13 @@ class Stack:
         recovery: float | None = None,
         damping: str | float | None = None,
     ) -> None:
-        """Adds a set-based task: its value is to stay between `min` and `max` [task's unit].
+        """Adds a set-based task: its value is to stay between two bounds, of which at least one is given.
 
         Arguments:
+            name: letters, digits and `_ . / -`, unique in the stack.
+            task: what is measured; of one component.
+            min: least value [task's unit].
+            max: greatest value [task's unit].
             gain: how fast a set of low priority is driven back to its border [1/s]; needed below an equality
                 task.
             recovery: how fast a set of high priority moves in while it is outside [task's unit/s]; without it,
@@ -71,6 +75,8 @@ class Stack:
         """Adds an equality task: its value is to become the desired one, which the task itself has.
 
         Arguments:
+            name: letters, digits and `_ . / -`, unique in the stack.
+            task: what is measured, with its desired value.
             gain: how fast the error falls [1/s]: in each period by gain / rate of what it is. A `JointSpeed`
                 has none.
             damping: how it is damped near singularities: "automatic", "per-direction", "smallest", "none", or
@@ -82,27 +88,49 @@ class Stack:
         self._add(name, task, {"gain_per_s": gain, "damping": damping}, is_set=False)
 
     def shape(self, name: str, link: str, type: str, **keys: Any) -> None:
-        """Fixes a shape to a link, in whose frame it is given: "sphere" (`center`, `radius`), "capsule"
-        (`from_`, `to`, `radius`), "box" (`center`, `size`, `rotation`), "cylinder" (`from_`, `to`, `radius`).
-        Lengths are in metres; a rotation is about this axis by its length [rad].
+        """Fixes a shape to a link.
 
         Shapes are kept apart from obstacles, and with `self_collision` from each other. Each pair is a set above
         all tasks that are added.
+
+        Arguments:
+            name: unique among shapes and obstacles.
+            link: the link in whose frame it is given.
+            type: "sphere" (with `center`, `radius`), "capsule" (`from_`, `to`, `radius`), "box" (`center`, `size`,
+                `rotation`) or "cylinder" (`from_`, `to`, `radius`).
+            keys: `center`, `from_`, `to`, `size` [m], shape (3,); `radius` [m]; `rotation`: about this axis by its
+                length [rad], shape (3,), by default not at all.
+
+        Raises:
+            ScenarioError: what is wrong with it; the stack is then as it was.
         """
         self._place(self._shapes, {"name": name, "link": link, "type": type, **_shape_keys(keys)})
 
     def obstacle(self, name: str, type: str, distance: float | None = None, **keys: Any) -> None:
-        """Puts a shape into the world, of the types of `shape` or a "half_space" (`point`, `normal`), from which
-        the robot's shapes keep `distance` [m] between the surfaces. Without a distance it is only measured by
-        tasks of type `ShapeDistance`."""
+        """Puts a shape into the world, from which the shapes of the robot keep their distance.
+
+        Arguments:
+            name: unique among shapes and obstacles.
+            type: one of those of `shape`, or "half_space" (`point`, `normal`): what lies behind a plane.
+            distance: least distance between the surfaces [m]. Without it the obstacle keeps nothing away, and is
+                only measured by tasks of type `ShapeDistance`.
+            keys: as of `shape`, in the world; `point` [m], `normal` out of it [-], shape (3,).
+
+        Raises:
+            ScenarioError: what is wrong with it; the stack is then as it was.
+        """
         self._place(
             self._obstacles,
             {"name": name, "type": type, "distance_m": distance, **_shape_keys(keys)},
         )
 
     def self_collision(self, distance: float, exclude: list[list[str]] | None = None) -> None:
-        """Keeps the robot's shapes `distance` [m] apart from each other, but for those on one link or on
-        neighbours, and for groups of names in `exclude`."""
+        """Keeps the shapes of the robot apart from each other, but for those on one link or on neighbours.
+
+        Arguments:
+            distance: least distance between the surfaces [m].
+            exclude: groups of names of shapes of which no two are kept apart.
+        """
         before = self._self_collision
         self._self_collision = _given({"distance_m": distance, "exclude": exclude})
         try:

@@ -41,7 +41,7 @@ class Position(Task):
 
 
 class Coordinate(Task):
-    """One coordinate of the position of the frame [m]."""
+    """One coordinate of the position of the frame [m]: a wall or a ceiling along an axis, as a set."""
 
     def __init__(
         self,
@@ -51,12 +51,12 @@ class Coordinate(Task):
         frame: str | None = None,
         relative_to: str | None = None,
     ) -> None:
-        """`axis`: "x", "y" or "z"; `desired` [m]: of an equality task."""
+        """`axis`: "x", "y" or "z", of the world or of `relative_to`; `desired` [m]: of an equality task."""
         super().__init__("coordinate", axis=axis, desired=desired, frame=frame, relative_to=relative_to)
 
 
 class Distance(Task):
-    """Distance of the origin of the frame to a point [m]."""
+    """Distance of the origin of the frame to a point [m], 0 and more: with a `min` a ball to keep out of."""
 
     def __init__(
         self,
@@ -88,7 +88,7 @@ class FieldOfView(Task):
 
 
 class PointingAngle(Task):
-    """Angle between an axis of the frame and a direction [rad], from 0 to pi."""
+    """Angle between an axis of the frame and a direction [rad], from 0 to pi: a cup upright, a torch down."""
 
     def __init__(
         self,
@@ -111,7 +111,8 @@ class PointingAngle(Task):
 
 
 class LookAt(Task):
-    """Angle between the z axis of the frame and the line of sight to a point [rad], from 0 to pi."""
+    """Angle between the z axis of the frame and the line of sight to a point [rad], from 0 to pi: a camera that
+    keeps something in its picture."""
 
     def __init__(
         self,
@@ -204,7 +205,8 @@ class Pose(Task):
 
 
 class Plane(Task):
-    """Signed distance of the origin of the frame to a plane [m], positive on the side of its normal."""
+    """Signed distance of the origin of the frame to a plane [m], positive on the side of its normal: a table or
+    a wall at any angle."""
 
     def __init__(
         self,
@@ -215,7 +217,8 @@ class Plane(Task):
         frame: str | None = None,
         relative_to: str | None = None,
     ) -> None:
-        """`normal`: any vector but zero; `offset` [m]: how far the plane is from the origin along it."""
+        """`normal`: any vector but zero, 3 numbers; `offset` [m]: how far the plane is from the origin along it;
+        `desired` [m]: of an equality task."""
         super().__init__(
             "plane",
             normal=floats(normal),
@@ -232,6 +235,7 @@ class Height(Task):
     def __init__(
         self, desired: float | None = None, *, frame: str | None = None, relative_to: str | None = None
     ) -> None:
+        """`desired` [m]: of an equality task."""
         super().__init__("height", desired=desired, frame=frame, relative_to=relative_to)
 
 
@@ -262,10 +266,10 @@ class Workspace(Task):
 
 
 class Joint(Task):
-    """Position of one joint [rad, or m if it slides]."""
+    """Position of one joint [rad, or m if it slides]. The position limits of the robot are sets already."""
 
     def __init__(self, joint: int | str, desired: float | None = None) -> None:
-        """`joint`: its number from 1 at the base, or its name."""
+        """`joint`: its number from 1 at the base, or its name; `desired` [rad or m]: of an equality task."""
         super().__init__("joint", joint=joint, desired=desired)
 
 
@@ -297,7 +301,8 @@ class Manipulability(Task):
         frame: str | None = None,
         relative_to: str | None = None,
     ) -> None:
-        """`part`: which rows of J count, "position", "orientation" or "pose"."""
+        """`part`: which rows of J count, "position", "orientation" or "pose";
+        `desired` [value's unit]: of an equality task."""
         super().__init__("manipulability", part=part, desired=desired, frame=frame, relative_to=relative_to)
 
 
@@ -312,7 +317,8 @@ class SmallestSingularValue(Task):
         frame: str | None = None,
         relative_to: str | None = None,
     ) -> None:
-        """`part`: which rows of the Jacobian count, "position", "orientation" or "pose"."""
+        """`part`: which rows of the Jacobian count, "position", "orientation" or "pose";
+        `desired` [value's unit]: of an equality task."""
         super().__init__(
             "smallest_singular_value", part=part, desired=desired, frame=frame, relative_to=relative_to
         )
@@ -332,7 +338,8 @@ class Elbow(Task):
         relative_to: str | None = None,
     ) -> None:
         """`shoulder`, `elbow`, `wrist`: the links at whose origins they are; `direction`: where the elbow is
-        at 0, any vector but zero."""
+        at 0, any vector but zero, 3 numbers; `desired` [rad]: of an equality task. A set must not have pi inside,
+        where the value jumps."""
         super().__init__(
             "elbow",
             shoulder=shoulder,
@@ -345,7 +352,8 @@ class Elbow(Task):
 
 
 class ShapeDistance(Task):
-    """Distance of two shapes [m], negative where they overlap."""
+    """Distance of two shapes of the stack [m], negative where they overlap: how far they would have to be
+    shifted to come apart. Pairs that only have to keep away need no task: `Stack.obstacle` makes their sets."""
 
     def __init__(self, first: str, second: str, desired: float | None = None) -> None:
         """The names of a shape of the stack and of another one or of an obstacle."""
