@@ -36,7 +36,7 @@ def on_files(files, config):
         text = text_of(uri)
         for target in linked(uri, text):
             page = page_of(target)
-            if page in sources:
+            if page in sources or is_of_the_site(target):
                 continue
             sources[page] = target
             waiting.append(page)
@@ -56,8 +56,9 @@ def on_page_markdown(markdown, page, config, files):
         if target is None:
             return link[0]
         away = posixpath.relpath(page_of(target), posixpath.dirname(uri) or ".")
-        # Lines of a file have no places on its page.
-        return f"{link[1]}{away}{link[4]}"
+        # Only headings of a text have places on its page.
+        place = link[3] or "" if target.suffix == ".md" else ""
+        return f"{link[1]}{away}{place}{link[4]}"
 
     return "".join(LINK.sub(turned, part) if is_prose else part for is_prose, part in parts(markdown))
 
@@ -81,7 +82,7 @@ def text_of(uri):
 
 
 def linked(uri, markdown):
-    """What it links to outside of docs/."""
+    """What it links to that is not of the site."""
     for is_prose, part in parts(markdown):
         if is_prose:
             for link in LINK.finditer(part):
@@ -99,14 +100,19 @@ def outside(uri, address):
     target = Path(posixpath.normpath((folder / address).as_posix()))
     if not target.exists() or not target.is_relative_to(ROOT):
         return None
-    if target.is_relative_to(DOCS) and uri not in sources:
+    if is_of_the_site(target) and uri not in sources:
         return None
     return target
 
 
+def is_of_the_site(target):
+    """Whether mkdocs brings it there by itself."""
+    return target.is_relative_to(DOCS) and target.suffix != ".py"
+
+
 def page_of(target):
     """The place in the site of a file or folder of the repository."""
-    if target.is_relative_to(DOCS):
+    if is_of_the_site(target):
         return target.relative_to(DOCS).as_posix()
     name = target.relative_to(ROOT).as_posix()
     if target.is_dir():
