@@ -92,10 +92,15 @@ def execute(python, conik, page):
 
 def build(python, folder):
     """Builds the site; a warning is a mistake."""
-    command = [python, "-m", "mkdocs", "build", "--strict", "--quiet", "--site-dir", folder.resolve()]
+    # With --quiet it would count none.
+    command = [python, "-m", "mkdocs", "build", "--strict", "--site-dir", folder.resolve()]
     # The theme tells of itself where this is not set.
     environment = {**os.environ, "NO_MKDOCS_2_WARNING": "1"}
-    return subprocess.run(command, cwd=ROOT, env=environment).returncode
+    done = subprocess.run(command, cwd=ROOT, env=environment, stderr=subprocess.PIPE, text=True)
+    for line in done.stderr.splitlines():
+        if line.strip() and not line.startswith("INFO"):
+            print(line)
+    return done.returncode
 
 
 if __name__ == "__main__":

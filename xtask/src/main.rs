@@ -8,8 +8,9 @@ use std::process::ExitCode;
 
 const USAGE: &str = "usage: cargo xtask test [--rust]
 
-  test          formatting, lints, all Rust tests, the Python package, real clients against the
-                emulator, exports read by others, the page in a browser; installs what is missing
+  test          formatting, lints, all Rust tests, the Python package, the documentation site and its
+                snippets, real clients against the emulator, exports read by others, the page in a
+                browser; installs what is missing
   test --rust   formatting, lints and Rust tests only: the quick loop";
 
 fn main() -> ExitCode {

@@ -57,6 +57,10 @@ pub fn all() -> Vec<Step> {
         },
         Step {
             needs: vec![PYTHON],
+            ..command("documentation site", &["python3", "tests/docs/run.py"])
+        },
+        Step {
+            needs: vec![PYTHON],
             ..command(
                 "real clients against the emulator",
                 &["python3", "tests/clients/run.py"],
