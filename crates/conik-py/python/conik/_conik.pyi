@@ -192,8 +192,8 @@ class Kinematics:
             link: its name; by default the tool.
 
         Returns:
-            Shape (6, dof): three rows of the velocity of the link's origin [m/rad, of a joint that slides -], then
-                three of its angular velocity [-, of a joint that slides rad/m].
+            Three rows of the velocity of the link's origin [m/rad, of a joint that slides -], then three of its angular
+                velocity [-, of a joint that slides rad/m], shape (6, dof).
         """
 
 @final

@@ -23,20 +23,20 @@ class Run:
     `run["q1_rad"]` is a column, one number a tick; `run.names` has their names, which are those of `log.csv`.
     """
 
-    #: The columns by their names, each of shape (ticks,).
     columns: dict[str, npt.NDArray[np.float64]]
-    #: The number of the active set of each tick, an index of `active_sets`; shape (ticks,).
+    """The columns by their names, each of shape (ticks,)."""
     active: npt.NDArray[np.int64]
-    #: The sets that were active together, by their names.
+    """The number of the active set of each tick, an index of `active_sets`; shape (ticks,)."""
     active_sets: list[tuple[str, ...]]
-    #: The number of what each tick decided and why, an index of `reasons`; shape (ticks,).
+    """The sets that were active together, by their names."""
     why: npt.NDArray[np.int64]
-    #: The codes of reasons: `hold:obstacle_a`, `speed:q3`.
+    """The number of what each tick decided and why, an index of `reasons`; shape (ticks,)."""
     reasons: list[tuple[str, ...]]
-    #: What `summary.json` has: outcome, waypoints, tasks, properties, ...
+    """The codes of reasons: `hold:obstacle_a`, `speed:q3`."""
     summary: dict[str, Any]
-    #: The scenario as the text of a file.
+    """What `summary.json` has: outcome, waypoints, tasks, properties, ..."""
     scenario: str
+    """The scenario as the text of a file."""
 
     def __init__(self, done: Mapping[str, Any]) -> None:
         self.columns = done["columns"]

@@ -382,10 +382,10 @@ class OwnTask(Task):
     now if the robot stays where it is; as a set it is then kept from what comes.
     """
 
-    #: Number of components. Sets have one.
     dimension: int = 1
-    #: Unit of the value, for people.
+    """Number of components. Sets have one."""
     unit: str = "-"
+    """Unit of the value, for people."""
 
     def __init__(self, desired: float | Vector | None = None) -> None:
         """`desired`: of an equality task, one number for each component; without it zeros."""
