@@ -1,11 +1,11 @@
 """Runs what the documentation shows, builds the site, and follows its links.
 
     python3 tests/docs/run.py [--conik PATH] [--wheel PATH]
-    python3 tests/docs/run.py --build FOLDER      # builds the site into a folder, and no more
+    python3 tests/docs/run.py --build FOLDER      # builds the site there, and no more
 
 Snippets of README.md and docs/ are run against the Python package and the command, as the comments above them
 say (tests/docs/snippets.py). What is needed is installed into an environment of its own. Exit status 1 if
-anything is wrong.
+anything is wrong. The site is left in target/site.
 """
 import argparse
 import os
@@ -29,8 +29,8 @@ PACKAGES = [
     "mkdocs-material==9.8.2",
     "mkdocstrings==1.0.8",
     "mkdocstrings-python==2.0.11",
-    "numpy==2.4.6",
-    "pandas==3.1.1",
+    "numpy==2.2.6",
+    "pandas==2.3.3",
     "pygments==2.21.0",
     "pymdown-extensions==13.1.2",
     "ruff==0.17.6",
@@ -70,11 +70,12 @@ def main():
             if execute(python, conik, page) != 0:
                 wrong.append(f"{page.relative_to(ROOT)}: a snippet does not do what the page says")
     print(f"{run} snippets run in {time.monotonic() - begin:.0f} s", flush=True)
-    with tempfile.TemporaryDirectory() as folder:
-        if build(python, Path(folder) / "site") != 0:
-            wrong.append("the site cannot be built")
-        else:
-            wrong += built.mistakes(Path(folder) / "site")
+    site = TARGET / "site"
+    if build(python, site) != 0:
+        wrong.append("the site cannot be built")
+    else:
+        wrong += built.mistakes(site)
+        print(f"the site is in {site}")
     print(*[f"FAILED: {sentence}" for sentence in wrong], sep="\n")
     print(f"{len(wrong)} mistakes, in {time.monotonic() - begin:.0f} s")
     return 1 if wrong else 0
