@@ -165,7 +165,7 @@ def priorities():
     for axes, title in ((strict, "in strict order"), (weighted, "with weights")):
         plane(axes, title)
         axes.plot(*line.T, color=INK, linewidth=1.6)
-        axes.text(0.99, 0.49, "task 1: any of these", color=INK, ha="center", rotation=-30, rotation_mode="anchor")
+        axes.text(1.01, 0.53, "task 1: any of these", color=INK, ha="center", rotation=-30, rotation_mode="anchor")
         axes.plot(*wish, "s", color=PURPLE, markersize=8)
         axes.text(wish[0] + 0.1, wish[1], "task 2: this one", color=INK, va="center")
     taken = wish + (offset - normal @ wish) * normal
