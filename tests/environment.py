@@ -23,7 +23,8 @@ def provide_packages(folder, packages):
 
 
 def provide_conik(path):
-    """The command, built if its path was not given."""
+    """The command, built if its path was not given, nor stands in the environment."""
+    path = path or os.environ.get("CONIK")
     if path is None:
         subprocess.run(["cargo", "build", "--quiet", "--package", "conik-cli"], cwd=ROOT, check=True)
         path = TARGET / "debug" / ("conik.exe" if os.name == "nt" else "conik")

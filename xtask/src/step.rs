@@ -36,6 +36,18 @@ impl Step {
     }
 }
 
+/// Where tests in other languages find the command that the Rust tests were run with.
+const COMMAND: &str = "CONIK";
+
+/// The command, if it was built.
+fn built_command() -> Option<PathBuf> {
+    let target = std::env::var_os("CARGO_TARGET_DIR").map_or(root().join("target"), PathBuf::from);
+    let name = format!("conik{}", std::env::consts::EXE_SUFFIX);
+    std::path::absolute(target.join("debug").join(name))
+        .ok()
+        .filter(|path| path.is_file())
+}
+
 /// Runs the steps in order and stops at the first that fails.
 pub fn run(steps: &[Step]) -> ExitCode {
     let begin = Instant::now();
@@ -57,6 +69,7 @@ pub fn run(steps: &[Step]) -> ExitCode {
         let status = Command::new(step.command[0])
             .args(&step.command[1..])
             .envs(step.environment.iter().copied())
+            .envs(built_command().map(|path| (COMMAND, path)))
             .current_dir(&folder)
             .status();
         let line = step.command.join(" ");

@@ -2,7 +2,6 @@
 
     python3 tests/in_environment.py [ARGUMENTS OF PYTEST]
 """
-import os
 import subprocess
 import sys
 from pathlib import Path
@@ -10,7 +9,7 @@ from pathlib import Path
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parent.parent.parent
 sys.path.append(str(ROOT / "tests"))
-from environment import TARGET, provide_packages  # noqa: E402
+from environment import TARGET, provide_packages, provide_wheel  # noqa: E402
 
 PACKAGES = [
     "maturin==1.13.1",
@@ -25,21 +24,15 @@ PACKAGES = [
 
 def main():
     python = provide_packages(TARGET / "conik-py-python", PACKAGES)
-    programs = python.parent
-    environment = {**os.environ, "VIRTUAL_ENV": str(programs.parent), "CARGO_TARGET_DIR": str(TARGET)}
-    environment["PATH"] = f"{programs}{os.pathsep}{environment['PATH']}"
-    wheels = TARGET / "wheels"
+    provide_wheel(python)
     steps = [
-        [python, "-m", "maturin", "build", "--profile", "dev", "--quiet", "--out", wheels],
-        [python, "-m", "pip", "install", "--quiet", "--disable-pip-version-check", "--no-index", "--no-deps"]
-        + ["--force-reinstall", "--find-links", wheels, "conik"],
         # The installed package, not the folder of its sources.
         [python, "-m", "mypy", "--strict", "--package", "conik"],
         [python, "-m", "mypy.stubtest", "conik._conik", "--ignore-disjoint-bases"],
         [python, "-m", "pytest", "-q", HERE, *sys.argv[1:]],
     ]
     for step in steps:
-        done = subprocess.run(step, cwd=ROOT, env=environment)
+        done = subprocess.run(step, cwd=ROOT)
         if done.returncode != 0:
             return done.returncode
     return 0

@@ -25,8 +25,10 @@ export class Folder {
 
 let program: Promise<string> | undefined;
 
-/** Path of the command; building it takes no time where it is built already. */
+/** Path of the command, which stands in the environment or is built. */
 function conik(): Promise<string> {
+  const given = process.env["CONIK"];
+  if (given) return Promise.resolve(given);
   program ??= run("cargo", ["build", "--quiet", "--package", "conik-cli", "--message-format", "json"], {
     cwd: REPOSITORY,
     maxBuffer: 1 << 28,
