@@ -55,7 +55,7 @@ const NEARLY_ZERO: f64 = 1e-9;
 
 /// A task: its value and its Jacobian in a configuration.
 ///
-/// `examples/own_task.rs` is one of a user's own, in thirty lines.
+/// `examples/05_own_task.rs` in the repository has one of a user's own, in thirty lines.
 ///
 /// Implementations must not allocate, and must give finite numbers for every finite configuration.
 /// What they give depends on the configuration and on the task's own parameters alone, which change
