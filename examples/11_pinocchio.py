@@ -31,9 +31,9 @@ JOINTS = [
     ([0.0, 0.0, 1.0], [0.0, 0.0, 0.10, 0.0, 0.0, 0.0]),
 ]
 START = np.array([0.0, 0.6, 0.0, -1.4, 0.0, 1.0, 0.0])
-TARGET_M = np.array([0.45, 0.30, -0.05])
+TARGET_M = np.array([0.45, 0.30, 0.0])
 # How high the elbow and the tool are to stay. The target is below: the tool comes as near as that allows.
-ELBOW_M, FLOOR_M = 0.63, 0.02
+ELBOW_M, FLOOR_M = 0.60, 0.02
 
 
 def arm():
@@ -136,8 +136,8 @@ def controller_of(robot):
     stack = conik.Stack(robot)
     stack.set("elbow_height", conik.Height(frame="joint_4_link"), min=ELBOW_M)
     stack.set("tool_height", conik.Height(), min=FLOOR_M)
-    stack.equality("position", conik.Position(TARGET_M), gain=1.0)
-    stack.equality("down", conik.PointingAngle([0.0, 0.0, -1.0], desired=0.0), gain=1.0)
+    stack.equality("position", conik.Position(TARGET_M), gain=2.0)
+    stack.equality("down", conik.PointingAngle([0.0, 0.0, -1.0], desired=0.0), gain=2.0)
     return conik.Controller(robot, stack, RATE_HZ)
 
 
