@@ -88,14 +88,14 @@ class Way:
         self.above.add_patch(plt.Circle((y, x), radius, label=label, **style))
         self.side.add_patch(plt.Circle((y, z), radius, **style))
 
-    def finish(self, height=0.3):
+    def finish(self, height=0.3, columns=3):
         """Says below both views what is what; each is at least so high [m]."""
         for axes in (self.above, self.side):
             low, high = axes.get_ylim()
             missing = max(0.0, height - abs(high - low)) / 2.0
             axes.set_ylim(low - np.sign(high - low) * missing, high + np.sign(high - low) * missing)
         handles, labels = self.above.get_legend_handles_labels()
-        self.part.legend(handles, labels, loc="outside lower center", ncols=3)
+        self.part.legend(handles, labels, loc="outside lower center", ncols=columns)
 
 
 def thin(values):
