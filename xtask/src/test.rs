@@ -96,7 +96,7 @@ pub fn all() -> Vec<Step> {
         Step {
             needs: vec![PYTHON],
             environment: LINTING.into(),
-            ..command("examples in Python", &["python3", "tests/examples/run.py"])
+            ..command("examples", &["python3", "tests/examples/run.py"])
         },
         Step {
             folder: "viewer/src",
