@@ -28,7 +28,7 @@ def provide_conik(path):
     if path is None:
         subprocess.run(["cargo", "build", "--quiet", "--package", "conik-cli"], cwd=ROOT, check=True)
         path = TARGET / "debug" / ("conik.exe" if os.name == "nt" else "conik")
-    return path
+    return Path(path)
 
 
 def provide_wheel(python, wheel=None):
