@@ -86,6 +86,22 @@ impl Robot {
         )
     }
 
+    #[staticmethod]
+    #[pyo3(signature = (text, tool=None, base=None))]
+    fn from_urdf_text(text: String, tool: Option<Names>, base: Option<String>) -> PyResult<Self> {
+        let source = UrdfConfig {
+            urdf: "robot.urdf".to_owned(),
+            base,
+            tool: tool.map_or(Vec::new(), Names::into),
+            urdf_text: text,
+        };
+        Self::of(
+            RobotSource::Urdf(source),
+            PlacesConfig::default(),
+            LimitsConfig::default(),
+        )
+    }
+
     #[pyo3(signature = (*, position=None, rpy=None))]
     fn standing_at(&self, position: Option<[f64; 3]>, rpy: Option<[f64; 3]>) -> PyResult<Self> {
         let places = PlacesConfig {

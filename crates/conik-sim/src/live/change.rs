@@ -131,7 +131,8 @@ impl Scenario {
         }
         let changed: Self = serde_json::from_value(json)
             .map_err(|error| ChangeError::Scenario(error.to_string()))?;
-        let changed = Self::from_toml(&changed.to_toml()).map_err(|errors| first(&errors))?;
+        let changed = Self::from_toml_knowing(&self.robot.source, &changed.to_toml())
+            .map_err(|errors| first(&errors))?;
         let mut speeds = Vec::new();
         for change in changes {
             change.push_speeds(&changed, &mut speeds)?;

@@ -8,6 +8,7 @@ use thiserror::Error;
 
 use super::config::Scenario;
 use super::mistake::{ScenarioErrors, line_and_column};
+use super::robot_source::Sources;
 
 /// A scenario file may be this long. The longest that makes sense, hundreds of tasks and thousands
 /// of waypoints, is a tenth of it.
@@ -70,10 +71,12 @@ impl Scenario {
         let path = path.as_ref();
         let text = read_text(path)?;
         let folder = path.parent().unwrap_or(Path::new(""));
-        Self::from_toml_in(folder, &text).map_err(|errors| LoadError::Mistakes {
-            path: path.to_owned(),
-            text,
-            errors,
+        Self::from_toml_in(&Sources::in_folder(folder), &text).map_err(|errors| {
+            LoadError::Mistakes {
+                path: path.to_owned(),
+                text,
+                errors,
+            }
         })
     }
 }

@@ -11,7 +11,7 @@ use super::keys;
 use super::mistake::{Mistakes, ScenarioErrors};
 use super::names;
 use super::robot;
-use super::robot_source;
+use super::robot_source::{self, RobotSource, Sources};
 use super::robots::RobotFacts;
 use super::shape_distance::Scene;
 use super::syntax;
@@ -39,11 +39,21 @@ impl Scenario {
     /// Every independent mistake in the text, each with its place, its key, what is wrong and what
     /// would be right. Mistakes of TOML syntax hide all others.
     pub fn from_toml(text: &str) -> Result<Self, ScenarioErrors> {
-        Self::from_toml_in(Path::new(""), text)
+        Self::from_toml_in(&Sources::in_folder(Path::new("")), text)
     }
 
-    /// As [`from_toml`](Self::from_toml); a URDF file is looked for in `folder`.
-    pub(super) fn from_toml_in(folder: &Path, text: &str) -> Result<Self, ScenarioErrors> {
+    /// As [`from_toml`](Self::from_toml); where the text names the URDF file of `known`, that is taken and no file
+    /// is read.
+    ///
+    /// # Errors
+    ///
+    /// As [`from_toml`](Self::from_toml).
+    pub fn from_toml_knowing(known: &RobotSource, text: &str) -> Result<Self, ScenarioErrors> {
+        Self::from_toml_in(&Sources::knowing(known), text)
+    }
+
+    /// As [`from_toml`](Self::from_toml); a URDF file is looked for in `sources`.
+    pub(super) fn from_toml_in(sources: &Sources, text: &str) -> Result<Self, ScenarioErrors> {
         let entries = syntax::parse(text)?;
         let file = Table {
             path: String::new(),
@@ -51,7 +61,7 @@ impl Scenario {
             entries: &entries,
         };
         let mut found = Mistakes::new(text);
-        let scenario = read_file(&file, folder, &mut found);
+        let scenario = read_file(&file, sources, &mut found);
         found.into_result(scenario)
     }
 
@@ -61,7 +71,7 @@ impl Scenario {
     ///
     /// As [`Scenario::from_toml`]; places are those in [`Scenario::to_toml`].
     pub fn check(&self) -> Result<(), ScenarioErrors> {
-        Self::from_toml(&self.to_toml()).map(|_| ())
+        Self::from_toml_knowing(&self.robot.source, &self.to_toml()).map(|_| ())
     }
 }
 
@@ -73,7 +83,7 @@ fn position_limits(limits: &LimitsConfig, robot: Option<&RobotFacts>) -> usize {
     }
 }
 
-fn read_file(file: &Table, folder: &Path, found: &mut Mistakes) -> Option<Scenario> {
+fn read_file(file: &Table, sources: &Sources, found: &mut Mistakes) -> Option<Scenario> {
     file.refuse_unknown_keys(&keys::FILE.iter().copied(), |_| None, found);
     let title = match file.text(&keys::TITLE, found) {
         Entry::Absent(_) => Some(None),
@@ -83,7 +93,7 @@ fn read_file(file: &Table, folder: &Path, found: &mut Mistakes) -> Option<Scenar
     let robot_table = file.table(&keys::ROBOT, found).required(file, found);
     let named = robot_table
         .as_ref()
-        .and_then(|table| robot_source::read(table, folder, found));
+        .and_then(|table| robot_source::read(table, sources, found));
     let (source, facts) = named.unzip();
     let urdf = source.clone();
     let facts = facts.as_ref();

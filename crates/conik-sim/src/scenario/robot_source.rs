@@ -209,10 +209,50 @@ fn pose(position_m: Option<[f64; 3]>, rpy_deg: Option<[f64; 3]>) -> Option<Pose>
     })
 }
 
+/// Where descriptions of robots come from.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Sources<'a> {
+    /// Where files are looked for.
+    folder: &'a Path,
+    /// One that was read already.
+    known: Option<&'a UrdfConfig>,
+}
+
+impl<'a> Sources<'a> {
+    /// Files, from a folder.
+    pub(super) fn in_folder(folder: &'a Path) -> Self {
+        Self {
+            folder,
+            known: None,
+        }
+    }
+
+    /// What was read already, and files from the current directory.
+    pub(super) fn knowing(known: &'a RobotSource) -> Self {
+        let known = match known {
+            RobotSource::Urdf(known) => Some(known),
+            RobotSource::Model { .. } => None,
+        };
+        Self {
+            folder: Path::new(""),
+            known,
+        }
+    }
+
+    /// The text of a URDF file.
+    fn text(&self, path: &Path) -> Result<String, String> {
+        let known = self.known.filter(|known| Path::new(&known.urdf) == path);
+        known.map_or_else(
+            || urdf_file::read(path),
+            |known| Ok(known.urdf_text.clone()),
+        )
+    }
+}
+
 /// Reads what describes the robot, and what is known of it; `None` where that is wrong.
 pub(super) fn read(
     table: &Table,
-    folder: &Path,
+    sources: &Sources,
     found: &mut Mistakes,
 ) -> Option<(RobotSource, RobotFacts)> {
     match (table.has(&keys::MODEL), table.has(&keys::URDF)) {
@@ -226,7 +266,7 @@ pub(super) fn read(
             );
             None
         }
-        (_, true) => read_urdf(table, folder, found),
+        (_, true) => read_urdf(table, sources, found),
         (has_model, false) => {
             for key in [&keys::BASE, &keys::TOOL, &keys::URDF_SHAPES] {
                 if table.has(key) {
@@ -270,18 +310,18 @@ fn read_model(table: &Table, found: &mut Mistakes) -> Option<(RobotSource, Robot
 
 fn read_urdf(
     table: &Table,
-    folder: &Path,
+    sources: &Sources,
     found: &mut Mistakes,
 ) -> Option<(RobotSource, RobotFacts)> {
     let base = table.text(&keys::BASE, found);
     let base = base.map(|base| Some(base.to_owned())).or(None);
     let tool = table.names(&keys::TOOL, found).or(Vec::new());
     let path = match table.text(&keys::URDF, found) {
-        Entry::Given(path) => folder.join(path),
+        Entry::Given(path) => sources.folder.join(path),
         _ => return None,
     };
     let path_text = path.to_string_lossy().into_owned();
-    let urdf_text = match urdf_file::read(&path) {
+    let urdf_text = match sources.text(&path) {
         Ok(text) => text,
         Err(what) => {
             let help = "give the path of a URDF file, from where the scenario's file is";
