@@ -65,6 +65,8 @@ pub fn all() -> Vec<Step> {
                     "conik-sim",
                     "--package",
                     "conik-ur",
+                    "--package",
+                    "conik-campaign",
                 ],
             )
         },

@@ -22,6 +22,7 @@ fn main() -> ExitCode {
         Command::Run(arguments) => commands::run::run(&arguments),
         Command::Check(arguments) => commands::check::check(&arguments),
         Command::Plot(arguments) => commands::plot::plot(&arguments),
+        Command::Campaign(arguments) => commands::campaign::campaign(&arguments),
         Command::Export(arguments) => commands::export::export(&arguments),
         Command::View(arguments) => commands::view::view(&arguments),
         Command::Emulate(arguments) => commands::emulate::emulate(&arguments),

@@ -185,3 +185,87 @@ impl Share {
         }
     }
 }
+
+/// Shows how many of many things are done, how fast, and for how long it still takes, on standard error.
+#[derive(Debug)]
+pub struct Count {
+    /// `None` under `--quiet`.
+    bar: Option<ProgressBar>,
+    what: &'static str,
+    is_terminal: bool,
+    last: Cell<Instant>,
+    begin: Cell<Option<(Instant, u64)>>,
+    all: u64,
+}
+
+impl Count {
+    /// For so many things of that name.
+    pub fn new(what: &'static str, all: u64, quiet: bool) -> Self {
+        let target = ProgressDrawTarget::stderr();
+        let is_terminal = !target.is_hidden();
+        let bar = (!quiet).then(|| {
+            let bar = ProgressBar::with_draw_target(Some(all), target);
+            if let Ok(style) = ProgressStyle::with_template("{bar:10} {wide_msg}") {
+                bar.set_style(style.progress_chars("━╸─"));
+            }
+            bar
+        });
+        Self {
+            bar,
+            what,
+            is_terminal,
+            last: Cell::new(Instant::now()),
+            begin: Cell::new(None),
+            all,
+        }
+    }
+
+    /// Shows that so many are done, if it is time to.
+    pub fn show(&self, done: u64) {
+        let Some(bar) = &self.bar else { return };
+        let (begin, before) = self.begin.get().unwrap_or((Instant::now(), done));
+        self.begin.set(Some((begin, before)));
+        let every = if self.is_terminal {
+            EVERY
+        } else {
+            EVERY_WITHOUT_TERMINAL
+        };
+        if self.last.get().elapsed() < every {
+            return;
+        }
+        self.last.set(Instant::now());
+        let rate = (done - before.min(done)) as f64 / begin.elapsed().as_secs_f64();
+        let left = self.all.saturating_sub(done);
+        let remaining = if rate > 0.0 {
+            format!(", {} left", time(left as f64 / rate))
+        } else {
+            String::new()
+        };
+        let message = format!(
+            "{done} of {} {}, {rate:.0} a second{remaining}",
+            self.all, self.what
+        );
+        if self.is_terminal {
+            bar.set_position(done);
+            bar.set_message(message);
+        } else {
+            let _ = writeln!(io::stderr(), "{message}");
+        }
+    }
+
+    /// Takes the line away.
+    pub fn finish(&self) {
+        if let Some(bar) = &self.bar {
+            bar.finish_and_clear();
+        }
+    }
+}
+
+/// A time, as people say it.
+fn time(seconds: f64) -> String {
+    match seconds {
+        s if s < 100.0 => format!("{s:.0} s"),
+        s if s < 6000.0 => format!("{:.0} min", s / 60.0),
+        s => format!("{:.1} h", s / 3600.0),
+    }
+}

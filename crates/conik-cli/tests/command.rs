@@ -4,6 +4,7 @@ mod svg_frame;
 
 mod command {
     mod bad_input;
+    mod campaign;
     mod default_rules;
     mod documents;
     mod explain;

@@ -8,6 +8,7 @@
 // What PyO3 hands over comes by value.
 #![allow(clippy::needless_pass_by_value)]
 
+mod campaign;
 mod controller;
 mod failure;
 mod kinematics;
@@ -23,6 +24,11 @@ use pyo3::prelude::*;
 
 #[pymodule]
 mod _conik {
+    #[pymodule_export]
+    use super::campaign::{
+        campaign_finish, campaign_keep, campaign_missing, campaign_plan, campaign_runs,
+        campaign_shard, campaign_work,
+    };
     #[pymodule_export]
     use super::controller::Controller;
     #[pymodule_export]

@@ -14,7 +14,8 @@ use crate::robot::Robot;
 /// A scenario of a robot, and of the other tables of a file.
 pub fn of_robot(robot: &RobotConfig, tables: &Bound<'_, PyDict>) -> PyResult<Scenario> {
     let text = robot.to_toml() + "\n" + &toml(tables)?;
-    of_text(&text)
+    let scenario = Scenario::from_toml_knowing(&robot.source, &text);
+    scenario.map_err(|errors| described(errors.without_places()))
 }
 
 /// A scenario of all tables of a file.
@@ -25,6 +26,22 @@ pub fn of_tables(tables: &Bound<'_, PyDict>) -> PyResult<Scenario> {
 /// A scenario from a file.
 pub fn of_file(path: &Path) -> PyResult<Scenario> {
     Scenario::load(path).map_err(described)
+}
+
+/// The same with other settings: entries of its table `control`.
+pub fn with_control(scenario: &Scenario, control: &Bound<'_, PyDict>) -> PyResult<Scenario> {
+    if control.is_empty() {
+        return Ok(scenario.clone());
+    }
+    let mut tables: toml::Table = toml::from_str(&scenario.to_toml()).map_err(refused)?;
+    if let (Some(Value::Table(there)), Value::Table(given)) =
+        (tables.get_mut("control"), value(control.as_any())?)
+    {
+        there.extend(given);
+    }
+    let text = toml::to_string(&tables).map_err(refused)?;
+    let scenario = Scenario::from_toml_knowing(&scenario.robot.source, &text);
+    scenario.map_err(|errors| described(errors.without_places()))
 }
 
 fn of_text(text: &str) -> PyResult<Scenario> {

@@ -18,7 +18,9 @@ PACKAGES = [
     "pandas==2.3.3",
     "pandas-stubs==2.3.2.250926",
     "polars==1.35.2",
+    "pyarrow==22.0.0",
     "pytest==9.0.1",
+    "ray==2.60.0",
 ]
 
 

@@ -44,6 +44,17 @@ def test_urdf_is_read(tmp_path):
     assert controller.task_names == ["limit/swing", "height"]
 
 
+def test_urdf_file_is_read_once(tmp_path):
+    path = tmp_path / "pendulum.urdf"
+    path.write_text(PENDULUM)
+    robot = conik.Robot.from_urdf(path)
+    path.unlink()
+    for same in [robot, conik.Robot.from_urdf_text(PENDULUM, tool="tip")]:
+        stack = conik.Stack(same)
+        stack.equality("height", conik.Height(1.4), gain=2)
+        assert conik.Controller(same, stack).step([0.1]).values["height"] == pytest.approx(1 + 0.5 * np.cos(0.1))
+
+
 def test_urdf_with_mistakes_is_refused_with_the_place(tmp_path):
     path = tmp_path / "bad.urdf"
     path.write_text(PENDULUM.replace('type="revolute"', 'type="hinge"'))

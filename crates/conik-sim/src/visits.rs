@@ -117,7 +117,11 @@ impl Visits {
 
     /// Called once at the start of each tick with the present [`pose`](Self::pose): takes the next waypoint
     /// if it is time to, and tells the task. Returns the index of one that is reached for the first time.
-    pub(crate) fn advance(
+    ///
+    /// # Errors
+    ///
+    /// If a waypoint is no number, which none of a scenario that was read is.
+    pub fn advance(
         &mut self,
         pose: &Pose,
         setpoints: &mut Setpoints<'_>,

@@ -1,5 +1,6 @@
 //! One file per command. Each returns the exit status, or a [`Failure`].
 
+pub mod campaign;
 pub mod check;
 pub mod completions;
 pub mod emulate;

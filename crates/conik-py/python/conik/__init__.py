@@ -24,6 +24,7 @@ base frame unless it stands elsewhere. Whole scenario files are run with `conik.
 """
 
 from ._conik import ConikError, Kinematics, Robot, ScenarioError, Step, StepError
+from .campaign import Campaign, campaign
 from .controller import Controller
 from .run import Run, run
 from .stack import Stack
@@ -52,6 +53,7 @@ from .tasks import (
 )
 
 __all__ = [
+    "Campaign",
     "ConikError",
     "Controller",
     "Coordinate",
@@ -82,5 +84,6 @@ __all__ = [
     "StepError",
     "Task",
     "Workspace",
+    "campaign",
     "run",
 ]

@@ -1,5 +1,6 @@
 """The compiled part of conik."""
 
+from collections.abc import Callable
 from os import PathLike
 from typing import Any, TypeAlias, final
 
@@ -17,6 +18,13 @@ __all__ = [
     "ScenarioError",
     "Step",
     "StepError",
+    "campaign_finish",
+    "campaign_keep",
+    "campaign_missing",
+    "campaign_plan",
+    "campaign_runs",
+    "campaign_shard",
+    "campaign_work",
     "check",
     "run",
 ]
@@ -73,6 +81,12 @@ class Robot:
         Raises:
             ScenarioError: the file cannot be read, or has mistakes, with the place of each.
         """
+
+    @staticmethod
+    def from_urdf_text(
+        text: str, tool: str | list[str] | None = None, base: str | None = None
+    ) -> Robot:
+        """The same from the text of a URDF file; mistakes in it are said to be in `robot.urdf`."""
 
     def standing_at(self, *, position: Vector | None = None, rpy: Vector | None = None) -> Robot:
         """The same with its base elsewhere in the world.
@@ -268,3 +282,25 @@ def check(robot: Robot, tables: dict[str, Any]) -> None: ...
 def run(
     *, path: str | PathLike[str] | None = None, tables: dict[str, Any] | None = None
 ) -> dict[str, Any]: ...
+def campaign_plan(
+    *,
+    path: str | PathLike[str] | None,
+    tables: dict[str, Any] | None,
+    runs: int,
+    seed: int,
+    starts: str,
+    near: float,
+    obstacles: float,
+    targets: float,
+    rates_hz: list[float],
+    servo_lag: tuple[float, float] | None,
+    control: dict[str, Any],
+) -> str: ...
+def campaign_missing(dir: str | PathLike[str], plan: str) -> tuple[list[int], int, int]: ...
+def campaign_runs(plan: str, shard: int) -> int: ...
+def campaign_shard(plan: str, shard: int) -> str: ...
+def campaign_keep(dir: str | PathLike[str], plan: str, shard: int, lines: str) -> None: ...
+def campaign_work(
+    dir: str | PathLike[str], plan: str, jobs: int | None, show: Callable[[int], object]
+) -> None: ...
+def campaign_finish(dir: str | PathLike[str], plan: str) -> dict[str, Any]: ...
