@@ -35,7 +35,11 @@ pub fn page(plan: &Plan, tally: &Tally) -> String {
          </main>\n</html>\n",
         grouped(tally.runs),
         described(plan),
-        if in_doubt(tally) == 0 { "good" } else { "bad" },
+        match (in_doubt(tally), sets_are_kept(tally)) {
+            (0, true) => "good",
+            (0, false) => "left",
+            _ => "bad",
+        },
         verdict(tally),
         properties(tally),
         bars(tally),
@@ -50,11 +54,14 @@ fn in_doubt(tally: &Tally) -> u64 {
     IN_DOUBT.iter().map(of).sum()
 }
 
+/// Whether no run left a set of high priority.
+fn sets_are_kept(tally: &Tally) -> bool {
+    let mut promised = tally.properties[1..4].iter();
+    promised.all(|kept| kept.kept == kept.shown)
+}
+
 fn verdict(tally: &Tally) -> String {
-    let kept = tally.properties[1..4]
-        .iter()
-        .all(|kept| kept.kept == kept.shown);
-    let sets = if kept {
+    let sets = if sets_are_kept(tally) {
         "No set of high priority was left in any run."
     } else {
         "Sets of high priority were left in some runs."
@@ -275,6 +282,7 @@ table { border-collapse: collapse; width: 100%; } .wide { overflow-x: auto; }
 th, td { text-align: left; padding: .3rem .6rem; border-bottom: 1px solid #8886; vertical-align: top; }
 .n { text-align: right; font-variant-numeric: tabular-nums; white-space: nowrap; }
 .verdict { padding: .6rem 1rem; border-left: .4rem solid #009e73; background: #009e7318; }
+.verdict.left { border-color: #e69f00; background: #e69f0018; }
 .verdict.bad { border-color: #d55e00; background: #d55e0018; }
 .bars { border-radius: 4px; overflow: hidden; margin-bottom: .6rem; }
 .note { color: GrayText; font-size: .9rem; }
