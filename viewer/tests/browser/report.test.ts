@@ -91,8 +91,11 @@ describe("a report", () => {
     expect(await page.evaluate(() => scrollY)).toBe(read);
     await reader.view("Replay in 3-D").click();
     await expect.poll(() => reader.time(), { message: "where it was left" }).toBe(17);
+    // The page in the frame may write its moment after the address is that of the report, and before that is told.
+    await page.evaluate(() => addEventListener("popstate", () => history.replaceState(null, "", "#t=17"), { once: true }));
     await page.goBack();
     await expect.poll(() => page.locator("main").isVisible()).toBe(true);
+    expect(new URL(page.url()).hash).toBe("#report");
     await reader.leave();
   });
 

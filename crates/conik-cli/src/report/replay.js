@@ -11,7 +11,8 @@
   // Where the report was read, and up to when the run was replayed.
   let scrolled = 0, last = toReplay.hash;
 
-  const moment = () => /^#t=-?\d+(\.\d+)?$/.test(location.hash);
+  const isMoment = (hash) => /^#t=-?\d+(\.\d+)?$/.test(hash);
+  const moment = () => isMoment(location.hash);
 
   async function unpacked(element) {
     const bytes = Uint8Array.from(atob(element.textContent), (letter) => letter.charCodeAt(0));
@@ -54,7 +55,11 @@
   // The page in the frame writes the moment into the address whenever it rests.
   toReport.addEventListener("click", () => { last = moment() ? location.hash : last; });
   toReplay.addEventListener("click", (event) => { if (frame) event.preventDefault(); });
-  addEventListener("hashchange", show);
+  addEventListener("hashchange", ({ newURL }) => {
+    // The page in the frame may have written its moment where somebody has just gone back to.
+    if (moment() && !isMoment(new URL(newURL).hash)) history.replaceState(null, "", newURL);
+    show();
+  });
   for (const element of document.querySelectorAll("[data-t]")) {
     const link = document.createElement("a");
     link.href = `#t=${Number(element.dataset.t)}`;
