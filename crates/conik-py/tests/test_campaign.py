@@ -69,6 +69,8 @@ def test_bytes_are_the_same_whatever_the_jobs_and_the_way_of_asking(tmp_path):
     conik.campaign(EXAMPLE, out=tmp_path / "one", jobs=1, **arguments)
     conik.campaign(str(EXAMPLE), out=tmp_path / "two", jobs=2, **arguments)
     assert bytes_of(tmp_path / "one") == bytes_of(tmp_path / "two")
+    with pytest.raises(conik.ConikError, match="it is done already"):
+        conik.campaign(EXAMPLE, out=tmp_path / "one", jobs=1, **arguments)
 
 
 def test_what_was_stopped_goes_on(tmp_path, monkeypatch):

@@ -128,6 +128,13 @@ def test_change_that_makes_no_sense_is_refused(robot, stack, name, change, said)
     assert said in str(error.value)
 
 
+def test_rate_without_a_place_is_refused(robot, stack):
+    controller = conik.Controller(robot, stack)
+    for name, change in [("position", {"velocity": [0, 0, 1]}), ("obstacle", {"desired_rate": 1.0})]:
+        with pytest.raises(ValueError, match="say where it is now too"):
+            controller.change(name, **change)
+
+
 def test_mistakes_are_said_as_the_command_says_them(robot):
     stack = conik.Stack(robot)
     with pytest.raises(conik.ScenarioError) as error:

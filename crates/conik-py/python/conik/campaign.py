@@ -87,7 +87,7 @@ def campaign(
 
     Raises:
         ScenarioError: what is wrong with the scenario, or with what varies.
-        ConikError: the folder has another campaign, or cannot be written.
+        ConikError: the folder has another campaign, or this one and it is done, or cannot be written.
         KeyboardInterrupt: on Ctrl-C; the runs that are done stay.
     """
     if isinstance(scenario, Mapping):
@@ -108,11 +108,13 @@ def campaign(
         control=control,
     )
     folder = Path(out)
+    missing, _, _ = _conik.campaign_missing(folder, plan)
+    if not missing and not (folder / "shards").exists():
+        raise _conik.ConikError(f"it is done already: {folder / 'report.html'}; remove the folder to run it again")
     show = _Progress(runs, progress)
     if ray is not None:
         _on_ray(folder, plan, ray, show)
     else:
-        _conik.campaign_missing(folder, plan)
         _conik.campaign_work(folder, plan, jobs, show)
     show.end()
     return Campaign(folder, _conik.campaign_finish(folder, plan))

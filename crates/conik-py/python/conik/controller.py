@@ -123,5 +123,18 @@ class Controller(_Controller):
             "desired": desired,
             "desired_rate": desired_rate,
         }
+        for rate, things in _RATES.items():
+            told = {**given, **vectors}
+            if told[rate] is not None and all(told[thing] is None for thing in things):
+                raise ValueError(f"task `{name}`: with `{rate}`, say where it is now too: {' or '.join(things)}")
         given |= {key: None if value is None else floats(value) for key, value in vectors.items()}  # type: ignore[arg-type]
         self._change(name, given)
+
+
+#: What moves at which rate: a rate alone would say nothing.
+_RATES = {
+    "velocity": ("target", "point"),
+    "angular_velocity": ("direction", "orientation"),
+    "offset_rate": ("offset",),
+    "desired_rate": ("desired",),
+}
