@@ -22,6 +22,8 @@ import * as theme from "./theme";
 
 /** Numbers that change faster than this cannot be read [ms]. */
 const TELL_EVERY = 66;
+/** A curve that grows more often than this looks no smoother [ms]. */
+const DRAW_EVERY = 100;
 const ABOUT_CLOSED = "conik-about-closed";
 
 export class App {
@@ -38,6 +40,11 @@ export class App {
   /** Drawings that are older than what is to be seen in them. */
   private readonly stale = new Set<{ redraw: () => void }>();
   private readonly addressed = addressed();
+  /** Whether there are rows of which nothing has been shown. */
+  private hasGrown = false;
+  /** Whether drawings show the newest rows, and when they were last begun. */
+  private isDrawn = true;
+  private drawn_ms = 0;
   private isTold = false;
   private told_ms = 0;
 
@@ -58,7 +65,7 @@ export class App {
     this.plots = new Plots(this.runs, this.clock, () => this.tell());
     this.about = about(() => this.toggleAbout(), this.live?.invitation);
     this.about.hidden = stored(ABOUT_CLOSED) === "yes";
-    const help = new Help(this.frames, this.live !== null);
+    const help = new Help(this.frames, this.live?.session ?? null);
     root.dataset["runs"] = String(this.runs.length);
     root.toggleAttribute("data-live", this.live !== null);
     root.replaceChildren(
@@ -89,11 +96,12 @@ export class App {
     this.live?.bench.subscribe(() => this.panes[0]!.refresh());
     const frame = (now_ms: number) => {
       const before = performance.now();
+      this.grow();
       this.clock.advance(now_ms);
+      // First, as text in a drawing has the page's styles computed, which are known until something is changed.
+      this.redrawOne(now_ms);
       this.show(now_ms);
-      this.redrawOne();
-      const heard_ms = this.live?.session.takeBusy() ?? 0;
-      if (this.clock.isMoving) this.frames.add(performance.now() - before + heard_ms);
+      if (this.clock.isMoving) this.frames.add(performance.now() - before);
       requestAnimationFrame(frame);
     };
     requestAnimationFrame(frame);
@@ -124,15 +132,23 @@ export class App {
 
   /** Takes in what is new of a run that is going on. */
   private hear(news: News): void {
-    const run = this.runs[0]!;
-    if (news === "ticks") {
-      this.clock.grow(run.begin_s, run.end_s);
-      this.plots.fill();
-    } else {
-      this.refresh();
-    }
+    if (news === "ticks") this.hasGrown = true;
+    else this.refresh();
     // Bounds are drawn too, and when waypoints were reached.
-    if (news === "state" || news === "link") return;
+    if (news === "scene") this.makeStale();
+  }
+
+  /** Goes with a run that has grown: once a frame, however often it was heard of. */
+  private grow(): void {
+    if (!this.hasGrown) return;
+    this.hasGrown = false;
+    const run = this.runs[0]!;
+    this.clock.grow(run.begin_s, run.end_s);
+    this.plots.fill();
+    this.isDrawn = false;
+  }
+
+  private makeStale(): void {
     for (const drawing of [this.timeline, ...this.plots.drawings]) this.stale.add(drawing);
   }
 
@@ -143,7 +159,11 @@ export class App {
   }
 
   /** One drawing a frame: all of them at once would take longer than a frame may. */
-  private redrawOne(): void {
+  private redrawOne(now_ms: number): void {
+    if (!this.isDrawn && this.stale.size === 0 && now_ms - this.drawn_ms >= DRAW_EVERY) {
+      [this.isDrawn, this.drawn_ms] = [true, now_ms];
+      this.makeStale();
+    }
     for (const drawing of this.stale) {
       this.stale.delete(drawing);
       drawing.redraw();

@@ -45,7 +45,15 @@ export function mark(node: Element, name: string, value: string): void {
   if (node.getAttribute(name) !== value) node.setAttribute(name, value);
 }
 
-/** The value of a colour or length of the style, `--ink` for instance. */
+/** Values of the style that were asked for, by theme and name. */
+const styles = new Map<string, string>();
+
+/** The value of a colour or length of the style, `--ink` for instance, which only the theme changes. */
 export function style(name: string): string {
-  return getComputedStyle(document.documentElement).getPropertyValue(name).trim();
+  const page = document.documentElement;
+  const key = `${page.dataset["theme"]} ${name}`;
+  // Whoever asks the page has all styles computed that have changed since the last frame.
+  const value = styles.get(key) ?? getComputedStyle(page).getPropertyValue(name).trim();
+  styles.set(key, value);
+  return value;
 }

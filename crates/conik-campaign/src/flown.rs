@@ -56,7 +56,8 @@ pub fn row(case: &Case) -> Result<Row, CaseError> {
 struct Flight {
     experiment: Experiment,
     monitor: Monitor,
-    announced: Announcements,
+    /// With border `land`, which announces.
+    announced: Option<Announcements>,
     measured: Option<Measured>,
     q: JointVec,
     mode_changes: u64,
@@ -103,7 +104,8 @@ impl Flight {
         });
         Ok(Self {
             monitor: Monitor::new(stack),
-            announced: Announcements::new(stack),
+            announced: (experiment.controller.settings().border == conik::Border::Land)
+                .then(|| Announcements::new(stack)),
             measured: measured.transpose()?,
             q: experiment.q0,
             mode_changes: 0,
@@ -139,8 +141,11 @@ impl Flight {
             }
             controller.measure();
             let step = controller.last_step();
-            self.monitor.observe(controller.stack(), step, t_s);
-            self.announced.observe(controller.stack(), step, t_s);
+            self.monitor
+                .observe_properties(controller.stack(), step, t_s);
+            if let Some(announced) = &mut self.announced {
+                announced.observe(controller.stack(), step, t_s);
+            }
             self.went_outside |= step.landed.outside.is_some();
             self.mode_changes += u64::from(active.is_some_and(|active| active != step.active));
             active = Some(step.active);
@@ -286,12 +291,12 @@ impl Flight {
         let controller = &self.experiment.controller;
         let is_broken = |nth: usize| kept[nth] == Some(false);
         if (1..4).any(is_broken) {
-            return if controller.settings().border == conik::Border::Freeze {
-                Class::Freeze
-            } else if self.went_outside && self.announced.unannounced().ticks == 0 {
-                Class::Announced
-            } else {
-                Class::Unexplained
+            return match &self.announced {
+                None => Class::Freeze,
+                Some(announced) if self.went_outside && announced.unannounced().ticks == 0 => {
+                    Class::Announced
+                }
+                Some(_) => Class::Unexplained,
             };
         }
         let Some(failing) = failing else {

@@ -18,8 +18,8 @@ interface Waiting {
 
 export class Connection {
   link: Link = "connecting";
-  /** How long messages took since somebody set this to 0 [ms]. */
-  busy_ms = 0;
+  /** How many messages came, and how long all of them took [ms]. */
+  readonly heard = { messages: 0, ms: 0 };
   private socket: WebSocket | null = null;
   private tries = 0;
   private next = 1;
@@ -57,7 +57,8 @@ export class Connection {
   private read(text: string): void {
     const before = performance.now();
     this.take(JSON.parse(text) as FromServer);
-    this.busy_ms += performance.now() - before;
+    this.heard.messages++;
+    this.heard.ms += performance.now() - before;
   }
 
   private take(message: FromServer): void {

@@ -68,11 +68,9 @@ export class Session {
     return this.ask({ kind: "change", changes });
   }
 
-  /** How long messages took since this was last asked [ms]. */
-  takeBusy(): number {
-    const { busy_ms } = this.connection;
-    this.connection.busy_ms = 0;
-    return busy_ms;
+  /** How many messages came, and how long all of them took [ms]. */
+  get heard(): { messages: number; ms: number } {
+    return this.connection.heard;
   }
 
   private hear(message: FromServer): void {

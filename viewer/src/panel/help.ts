@@ -2,6 +2,7 @@
 
 import { button, element, icon } from "../element";
 import type { FrameTimes } from "../frame_times";
+import type { Session } from "../live/session";
 
 const CLOSE = "M4 4l8 8M12 4l-8 8";
 
@@ -53,7 +54,9 @@ export class Help {
   readonly element = element("dialog", { "aria-label": "Keys and help" });
   private readonly timing = element("p", { class: "soft timing" });
 
-  constructor(private readonly frames: FrameTimes, isLive = false) {
+  /** `session` is that of a run that is going on. */
+  constructor(private readonly frames: FrameTimes, private readonly session: Session | null = null) {
+    const isLive = session !== null;
     const own = (keys: string) => isLive && LIVE_KEYS.some(([others]) => others === keys);
     const all = [...(isLive ? LIVE_KEYS : []), ...KEYS.filter(([keys]) => !own(keys))];
     const rows = all.map(([keys, does]) => element("tr", {}, element("th", { scope: "row" }, ...caps(keys)), element("td", {}, does)));
@@ -75,7 +78,10 @@ export class Help {
       return;
     }
     const { frames, median, p99 } = this.frames.summary;
-    this.timing.textContent = `Script for a frame, last ${frames}: median ${median.toFixed(2)} ms, 99 % below ${p99.toFixed(2)} ms`;
+    const frame = `Script for a frame, last ${frames}: median ${median.toFixed(2)} ms, 99 % below ${p99.toFixed(2)} ms`;
+    const { messages, ms } = this.session?.heard ?? { messages: 0, ms: 0 };
+    const message = messages > 0 ? `; for a message of the run, mean of ${messages}: ${(ms / messages).toFixed(2)} ms` : "";
+    this.timing.textContent = frame + message;
     this.element.showModal();
   }
 }

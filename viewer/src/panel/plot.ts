@@ -64,7 +64,6 @@ export class Plot {
     const x = (t_s: number) => left + ((t_s - begin_s) / (end_s - begin_s || 1)) * (width - left - right);
     const y = (value: number) => height - BOTTOM - ((value - low) / (high - low)) * (height - BOTTOM - TOP);
     pen.clearRect(0, 0, width, height);
-    pen.font = `11px ${style("--font")}`;
     this.drawForbidden(pen, bounds, x, y, height);
     pen.strokeStyle = style("--line");
     pen.fillStyle = style("--soft");

@@ -14,6 +14,8 @@ export class Plots {
   readonly element: HTMLElement;
   private readonly grid = element("div", { class: "plot-grid" });
   private readonly choice = element("select", { "aria-label": "Add a plot" });
+  /** The tasks and how many columns there were when it was last looked what can be plotted. */
+  private known: readonly unknown[] = [];
   private all = new Map<string, { group: string; quantity: Quantity }>();
   private plots: Plot[] = [];
 
@@ -29,8 +31,13 @@ export class Plots {
 
   /** Offers the columns that there are, and begins with some if nothing is plotted. */
   fill(): void {
-    if (this.all.size > 0 && this.all.size === quantities(this.runs[0]!).size) return;
-    this.all = quantities(this.runs[0]!);
+    const [run] = this.runs as [Run];
+    const known = [run.scene.tasks, run.names.length] as const;
+    if (known.every((thing, nth) => thing === this.known[nth])) return;
+    this.known = known;
+    const all = quantities(run);
+    if (this.all.size > 0 && this.all.size === all.size) return;
+    this.all = all;
     const groups = new Map<string, HTMLOptGroupElement>();
     this.choice.replaceChildren(element("option", { value: "" }, "Add a plot …"));
     for (const [column, { group, quantity }] of this.all) {

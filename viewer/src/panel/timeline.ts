@@ -111,7 +111,6 @@ export class Timeline {
     });
     const foot = this.runs.length * (STRIP + GAP);
     pen.fillStyle = soft;
-    pen.font = `11px ${style("--font")}`;
     pen.textBaseline = "top";
     for (const tick of ticks(begin_s, end_s, Math.max(2, width / 110))) {
       pen.textAlign = tick === begin_s ? "left" : x(tick) > width - 24 ? "right" : "center";

@@ -14,14 +14,13 @@ export class Labels {
   readonly element = element("div", { class: "labels", "aria-hidden": "true" });
   private readonly spans: HTMLElement[] = [];
 
-  /** Shows these and no others. */
-  place(camera: Camera, labels: Label[]): void {
+  /** Shows these and no others, in a picture so wide and high [px]. */
+  place(camera: Camera, { width, height }: { width: number; height: number }, labels: Label[]): void {
     while (this.spans.length < labels.length) {
       const span = element("span");
       this.spans.push(span);
       this.element.append(span);
     }
-    const { clientWidth, clientHeight } = this.element;
     this.spans.forEach((span, nth) => {
       const label = labels[nth];
       span.hidden = !label;
@@ -30,7 +29,7 @@ export class Labels {
       mark(span, "class", label.kind);
       const { x, y, z } = label.at.project(camera);
       span.hidden = z > 1;
-      span.style.transform = `translate(${((x + 1) / 2) * clientWidth}px, ${((1 - y) / 2) * clientHeight}px)`;
+      span.style.transform = `translate(${((x + 1) / 2) * width}px, ${((1 - y) / 2) * height}px)`;
     });
   }
 }

@@ -69,6 +69,8 @@ export class Stage {
   /** Where a pointer has gone to since the last frame, from -1 to 1. */
   private pointed: Vector2 | null = null;
   private readonly raycaster = new Raycaster();
+  /** Of the picture [px]; whoever asks the element for it has the whole page laid out. */
+  private size = { width: 0, height: 0 };
   private isDirty = true;
   private isPainted = false;
   private hasMoved = false;
@@ -107,7 +109,7 @@ export class Stage {
     canvas.addEventListener("pointermove", (event) => this.followPointer(event));
     // Nobody points beyond the edge.
     canvas.addEventListener("pointerleave", () => (this.pointed = new Vector2(9, 9)));
-    new ResizeObserver(() => this.resize()).observe(this.element);
+    new ResizeObserver(([box]) => this.resize(box!.contentRect)).observe(this.element);
     if (bench) {
       const places = new Places(this.frames, this.views.length);
       this.mover = new Mover(run, bench, places, this.regions, this.camera, reach);
@@ -280,12 +282,12 @@ export class Stage {
     this.isPainted = true;
   }
 
-  private resize(): void {
-    const { clientWidth, clientHeight } = this.element;
-    if (clientWidth === 0 || clientHeight === 0) return;
+  private resize({ width, height }: DOMRectReadOnly): void {
+    if (width === 0 || height === 0) return;
+    this.size = { width, height };
     this.renderer.setPixelRatio(Math.min(window.devicePixelRatio, 2));
-    this.renderer.setSize(clientWidth, clientHeight);
-    this.camera.aspect = clientWidth / clientHeight;
+    this.renderer.setSize(width, height);
+    this.camera.aspect = width / height;
     this.camera.updateProjectionMatrix();
     if (!this.hasMoved) this.fit();
     this.isDirty = true;
@@ -293,7 +295,7 @@ export class Stage {
 
   private placeLabels(): void {
     const { active } = this.run.modeAt(this.row);
-    this.labels.place(this.camera, [
+    this.labels.place(this.camera, this.size, [
       ...this.waypoints.labels(this.chosen).map((label) => ({ ...label, kind: "waypoint" })),
       ...this.regions.labels(active, this.chosen).map((label) => ({ ...label, kind: "region" })),
       ...this.views.labels(active, this.chosen).map((label) => ({ ...label, kind: "region" })),

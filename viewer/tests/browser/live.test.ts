@@ -162,6 +162,8 @@ describe("the run's own speed", () => {
 describe("what goes wrong", () => {
   test("a fault stands across the page in words, as text", async () => {
     const { page, mock } = await follow();
+    // A replay that is over before anybody looks is none.
+    await expect.poll(() => shownTime(page)).toBeGreaterThan(3);
     mock.scene = { ...mock.scene, arm: "10.0.0.7" };
     mock.end({ kind: "fault", name: "protective-stop", detail: "the arm touched <b>something</b>" });
     const banner = page.locator(".banner[data-kind=fault]");
