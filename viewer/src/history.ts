@@ -39,6 +39,11 @@ export class History<T> {
     return this.things[low]!;
   }
 
+  /** All of them, each with when it came into force. */
+  *[Symbol.iterator](): Generator<{ from_s: number; thing: T }> {
+    for (let nth = 0; nth < this.things.length; nth++) yield { from_s: this.from_s[nth]!, thing: this.things[nth]! };
+  }
+
   /** Keeps nothing but `first`, from ever. */
   restart(first: T): void {
     this.things = [first];

@@ -23,6 +23,13 @@ export interface Span {
   mode: Mode;
 }
 
+/** What a task is to stay within, from a time on. */
+export interface Bounds {
+  from_s: number;
+  min: number | null;
+  max: number | null;
+}
+
 /** What is on its way to where the scene has it, by name of the task or obstacle. */
 export type Gliding = ReadonlyMap<string, Glide>;
 
@@ -79,6 +86,22 @@ export class Run {
   /** What there was at a time. */
   sceneAt(t_s: number): Scene {
     return this.scenes.at(t_s);
+  }
+
+  /** What bounded a task, from when on; nothing before it was there. */
+  boundsOf(name: string): Bounds[] {
+    const all: Bounds[] = [];
+    let place = 0, task: Task | undefined;
+    for (const { from_s, thing } of this.scenes) {
+      const { tasks } = thing;
+      if (tasks[place]?.name !== name) place = tasks.findIndex((task) => task.name === name);
+      if (tasks[place] === task) continue;
+      task = tasks[place];
+      const { min = null, max = null } = task ?? {};
+      const last = all[all.length - 1];
+      if (!last || last.min !== min || last.max !== max) all.push({ from_s, min, max });
+    }
+    return all;
   }
 
   /** What was on its way at a time. */

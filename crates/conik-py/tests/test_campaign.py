@@ -1,3 +1,4 @@
+import os
 import subprocess
 import sys
 import threading
@@ -11,7 +12,11 @@ import pytest
 import conik
 from conik import _conik
 
-SCENARIOS = Path(__file__).resolve().parents[3] / "scenarios"
+ROOT = Path(__file__).resolve().parents[3]
+sys.path.append(str(ROOT / "tests"))
+from environment import provide_conik  # noqa: E402
+
+SCENARIOS = ROOT / "scenarios"
 EXAMPLE = SCENARIOS / "paper" / "example2.toml"
 
 
@@ -142,6 +147,15 @@ def test_cluster_that_loses_a_machine_gives_the_same_bytes(tmp_path, cluster):
     conik.campaign(EXAMPLE, out=tmp_path / "there", ray=cluster.address, **arguments)
     killer.join()
     assert killed[0] < 20, "it was killed before the end"
+    assert bytes_of(tmp_path / "here") == bytes_of(tmp_path / "there")
+
+
+def test_command_spreads_its_runs_over_a_cluster(tmp_path, cluster):
+    command = [provide_conik(None), "campaign", EXAMPLE, "--runs", "600", "--duration-s", "0.5", "--quiet"]
+    environment = {**os.environ, "PYTHON": sys.executable}
+    there = subprocess.run([*command, "--out", tmp_path / "there", "--ray", cluster.address], env=environment)
+    here = subprocess.run([*command, "--out", tmp_path / "here", "--jobs", "1"])
+    assert (there.returncode, here.returncode) == (0, 0)
     assert bytes_of(tmp_path / "here") == bytes_of(tmp_path / "there")
 
 

@@ -28,7 +28,7 @@ export class Live {
   private readonly save: Save;
   private readonly undo: HTMLButtonElement;
 
-  constructor(url: string, run: Run, private readonly clock: Clock, jump: (way: -1 | 1) => void) {
+  constructor(url: string, private readonly run: Run, private readonly clock: Clock, jump: (way: -1 | 1) => void) {
     this.session = new Session(url, run, () => location.reload());
     this.bench = new Workbench(this.session, run, clock);
     this.status = new LiveStatus(this.session, run);
@@ -55,6 +55,8 @@ export class Live {
   update(): void {
     const { session, clock } = this;
     if (clock.live === session.isOver) {
+      // Whoever followed it sees its end.
+      clock.grow(this.run.begin_s, this.run.end_s);
       clock.live = !session.isOver;
       if (session.isOver) clock.following = false;
     }

@@ -4,7 +4,7 @@ import type { Clock } from "../clock";
 import { button, element, icon, say, style } from "../element";
 import type { Task } from "../protocol";
 import { quantity } from "../quantity";
-import type { Run } from "../run";
+import type { Bounds, Run } from "../run";
 import { isSet } from "../words";
 import { Canvas } from "./canvas";
 import { ticks } from "./timeline";
@@ -55,10 +55,10 @@ export class Plot {
   private draw(pen: CanvasRenderingContext2D, width: number, height: number): void {
     const { begin_s, horizon_s: end_s } = this.clock;
     const { column } = this.quantity;
-    // A bound may have been changed since.
-    const task = this.runs[0]!.scene.tasks.find(({ name }) => name === this.quantity.task?.name) ?? this.quantity.task;
+    const { task } = this.quantity;
     const scale = this.quantity.unit.startsWith("rad") ? 180 / Math.PI : 1;
-    const bounds = task && isSet(task) ? [task.min ?? null, task.max ?? null] : [null, null];
+    // A bound may have been changed on the way.
+    const bounds = task && isSet(task) ? this.runs[0]!.boundsOf(task.name) : [];
     const [low, high] = this.range(bounds);
     const [left, right] = INSET;
     const x = (t_s: number) => left + ((t_s - begin_s) / (end_s - begin_s || 1)) * (width - left - right);
@@ -98,7 +98,8 @@ export class Plot {
     pen.setLineDash([]);
   }
 
-  private range(bounds: (number | null)[]): [number, number] {
+  private range(all_bounds: Bounds[]): [number, number] {
+    const bounds = all_bounds.flatMap(({ min, max }) => [min, max]);
     const ranges = this.runs.filter((run) => run.column(this.quantity.column)).flatMap((run) => run.range(this.quantity.column));
     const seen = [Math.min(...ranges), Math.max(...ranges)];
     const size = seen[1]! - seen[0]!;
@@ -112,26 +113,28 @@ export class Plot {
 
   private drawForbidden(
     pen: CanvasRenderingContext2D,
-    bounds: (number | null)[],
+    bounds: Bounds[],
     x: (t_s: number) => number,
     y: (value: number) => number,
     height: number,
   ): void {
     const { begin_s, horizon_s: end_s } = this.clock;
-    const [from, to] = [x(begin_s), x(end_s)];
     const inside = (at: number) => Math.min(height - BOTTOM, Math.max(TOP, at));
-    bounds.forEach((bound, side) => {
-      if (bound === null) return;
-      const edge = inside(y(bound));
-      const end = side === 0 ? height - BOTTOM : TOP;
-      pen.fillStyle = style("--forbidden");
-      pen.fillRect(from, Math.min(edge, end), to - from, Math.abs(end - edge));
-      if (edge !== y(bound)) return;
-      pen.strokeStyle = style("--limit");
-      pen.lineWidth = 1.25;
-      pen.setLineDash([5, 3]);
-      line(pen, from, edge, to, edge);
-      pen.setLineDash([]);
+    bounds.forEach(({ from_s, min, max }, nth) => {
+      const from = x(Math.max(begin_s, from_s)), to = x(Math.min(end_s, bounds[nth + 1]?.from_s ?? end_s));
+      if (to <= from) return;
+      for (const [bound, end] of [[min, height - BOTTOM], [max, TOP]] as const) {
+        if (bound === null) continue;
+        const edge = inside(y(bound));
+        pen.fillStyle = style("--forbidden");
+        pen.fillRect(from, Math.min(edge, end), to - from, Math.abs(end - edge));
+        if (edge !== y(bound)) continue;
+        pen.strokeStyle = style("--limit");
+        pen.lineWidth = 1.25;
+        pen.setLineDash([5, 3]);
+        line(pen, from, edge, to, edge);
+        pen.setLineDash([]);
+      }
     });
   }
 }

@@ -172,6 +172,8 @@ describe("what goes wrong", () => {
     expect(await banner.getAttribute("role")).toBe("alert");
     expect(await page.locator(".state-chip").textContent()).toContain("fault");
     const at = await shownTime(page);
+    const end = Number(/[\d.]+/.exec((await page.locator(".when").textContent()) ?? ""));
+    expect(Math.abs(at - end), "its end is shown").toBeLessThan(0.06);
     await page.keyboard.press(" ");
     await expect.poll(() => shownTime(page), { message: "what was is replayed" }).toBeLessThan(at - 0.2);
   });

@@ -84,6 +84,23 @@ describe("a run that is going on", () => {
     expect(run.scene.tasks[0]).not.toBe(before.tasks[0]);
   });
 
+  test("knows what bounded a task when, wherever it stood in the list", () => {
+    const run = begun();
+    run.take(piece(0, 5));
+    const { scene } = run;
+    const { min, max = null } = scene.tasks[0]!;
+    const changed = scene.tasks.map((task) => (task.name === "obstacle" ? { ...task, min: 0.3 } : task));
+    run.change({ ...scene, title: "another", tasks: scene.tasks.map((task) => ({ ...task })) }, 0.5);
+    run.change({ ...scene, tasks: changed }, 1);
+    run.change({ ...scene, tasks: [...changed].reverse() }, 1.5);
+    run.change({ ...scene, tasks: changed.slice(1) }, 2);
+    expect(run.boundsOf("obstacle")).toEqual([
+      { from_s: Number.NEGATIVE_INFINITY, min, max },
+      { from_s: 1, min: 0.3, max },
+      { from_s: 2, min: null, max: null },
+    ]);
+  });
+
   test("knows what was on its way when", () => {
     const run = begun();
     run.take(piece(0, 2));

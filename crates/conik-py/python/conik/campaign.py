@@ -21,6 +21,8 @@ from ._numbers import floats
 
 #: Tasks that are given to a cluster at a time, for each of its cores: enough that none waits.
 TASKS_PER_CORE = 3
+#: Cores may come and go; how often it is looked [s].
+LOOK_EVERY_S = 1.0
 
 
 class Campaign:
@@ -167,14 +169,19 @@ def _on_ray(folder: Path, plan: str, address: str, show: _Progress) -> None:
         plan_there = ray.put(plan)
         waiting = iter(missing)
         at_work: dict[Any, int] = {}
+        most, looked = 0, -LOOK_EVERY_S
         while True:
-            # Cores may come and go.
-            most = TASKS_PER_CORE * max(1, int(ray.cluster_resources().get("CPU", 1)))  # type: ignore[no-untyped-call]
+            if (now := time.monotonic()) - looked >= LOOK_EVERY_S:
+                cores = int(ray.cluster_resources().get("CPU", 1))  # type: ignore[no-untyped-call]
+                most, looked = TASKS_PER_CORE * max(1, cores), now
             while len(at_work) < most and (shard := next(waiting, None)) is not None:
                 at_work[run.remote(plan_there, shard)] = shard
             if not at_work:
                 break
-            ready, _ = ray.wait(list(at_work), num_returns=1, timeout=0.5)
+            ready, others = ray.wait(list(at_work), num_returns=1, timeout=0.5)
+            if ready and others:
+                # Whatever else is ready by now: with many cores, asking for each alone takes longer than they do.
+                ready += ray.wait(others, num_returns=len(others), timeout=0)[0]
             for task in ready:
                 shard = at_work.pop(task)
                 _conik.campaign_keep(folder, plan, shard, ray.get(task))

@@ -135,7 +135,7 @@ impl Monitor {
         self.observe_properties(stack, step, t_s);
     }
 
-    /// Takes in one tick for the [`properties`](Self::properties) and histories alone, at about half the time:
+    /// Takes in one tick for the [`properties`](Self::properties) and histories alone, which takes less time:
     /// [`observations`](Self::observations) do not see it.
     pub fn observe_properties(&mut self, stack: &Stack, step: &Step, t_s: f64) {
         for (id, level) in stack.iter() {
