@@ -15,7 +15,7 @@ def provide_packages(folder, packages):
     stamp = folder / "installed"
     if not stamp.exists() or stamp.read_text().split() != packages:
         venv.create(folder, with_pip=True, clear=True)
-        install = [python, "-m", "pip", "install", "--quiet", "--disable-pip-version-check"]
+        install = [python, "-m", "pip", "install", "--quiet", "--disable-pip-version-check", "--no-compile"]
         if subprocess.run([*install, *packages]).returncode != 0:
             sys.exit(f"packages cannot be installed; check that pip can: {' '.join(packages)}")
         stamp.write_text("\n".join(packages))

@@ -3,7 +3,7 @@
 import type { Page } from "playwright-core";
 
 /** What runs while somebody waits [ms]. */
-const LONG = 12_000;
+const LONG = 8_000;
 
 /**
  * Script of a frame in time of the page's own thread [ms], and how many frames there were. Unlike time on the

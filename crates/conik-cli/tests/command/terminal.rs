@@ -34,13 +34,7 @@ impl Terminal {
         unlockpt(&person).unwrap();
         let name = ptsname(&person, Vec::new()).unwrap();
         let device = open(&name, OFlags::RDWR | OFlags::NOCTTY, Mode::empty()).unwrap();
-        let size = Winsize {
-            ws_row: 24,
-            ws_col: 80,
-            ws_xpixel: 0,
-            ws_ypixel: 0,
-        };
-        tcsetwinsize(&device, size).unwrap();
+        resize(&device, 24, 80);
         let side = || Stdio::from(device.try_clone().unwrap());
         let child = conik(["run", "--tui"])
             .arg(scenario)
@@ -105,6 +99,28 @@ impl Drop for Terminal {
         let _ = self.child.kill();
         let _ = self.child.wait();
     }
+}
+
+fn resize(device: &OwnedFd, rows: u16, columns: u16) {
+    let size = Winsize {
+        ws_row: rows,
+        ws_col: columns,
+        ws_xpixel: 0,
+        ws_ypixel: 0,
+    };
+    tcsetwinsize(device, size).unwrap();
+}
+
+/// The lowest row and the furthest column that a text goes to, counted from 1.
+fn reaches(text: &str) -> (u16, u16) {
+    let places = text.split("\u{1b}[").filter_map(|sequence| {
+        let (place, _) = sequence.split_once('H')?;
+        let (row, column) = place.split_once(';')?;
+        Some((row.parse::<u16>().ok()?, column.parse::<u16>().ok()?))
+    });
+    places.fold((0, 0), |(lowest, furthest), (row, column)| {
+        (lowest.max(row), furthest.max(column))
+    })
 }
 
 /// How the run ended, once it has.
@@ -244,6 +260,40 @@ fn terminal_that_is_hung_up_after_the_end_ends_the_command() {
     });
     terminal.hang_up();
     assert_eq!(terminal.status(), Some(0));
+}
+
+#[test]
+fn view_fits_the_window_whatever_size_it_is_given() {
+    let folder = empty_folder("terminal-resized");
+    let scenario = patient(&folder);
+    let mut terminal = Terminal::run(&folder, &scenario, "--out out");
+    let screen = terminal.read();
+    let has = |what: &str| screen.lock().unwrap().contains(what).then_some(());
+    wait_for("the arm to move", || has("running"));
+    let (rows, columns) = reaches(&screen.lock().unwrap());
+    assert!(
+        (20..=24).contains(&rows) && columns <= 80,
+        "{rows} {columns}"
+    );
+    for (rows, columns) in [(40, 120), (5, 20), (1, 1), (24, 80)] {
+        // What is under way when the size changes may still be of the old one.
+        resize(&terminal.device, rows, columns);
+        let drawn = || screen.lock().unwrap().len();
+        let before = drawn();
+        wait_for("a picture of that size", || {
+            let text = screen.lock().unwrap();
+            let last = text[before..]
+                .rsplit_once("\u{1b}[2J")
+                .map(|(_, last)| reaches(last));
+            last.filter(|(lowest, furthest)| {
+                (rows - rows / 4..=rows).contains(lowest) && *furthest <= columns
+            })
+            .map(|_| ())
+        });
+    }
+    terminal.press("q");
+    assert_eq!(terminal.status(), Some(130));
+    assert!(!terminal.is_raw());
 }
 
 #[test]
