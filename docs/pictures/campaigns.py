@@ -32,6 +32,7 @@ CLASSES = [
     ("dependent-tasks", "#cc79a7", "xx"),
     ("conflict-of-sets", "#f0e442", "\\\\"),
     ("frozen-inside", "#e69f00", "--"),
+    ("speed-limit", "#b2df8a", "oo"),
     ("freeze", "#d55e00", ""),
     ("announced", "#bbbbbb", ""),
     ("fault", "#000000", ""),

@@ -21,6 +21,9 @@ pub enum Class {
     ConflictOfSets,
     /// The rule holds a set that is strictly inside, and the arm rests.
     FrozenInside,
+    /// A joint turns at its speed limit all the time, as one does near a singularity, and all others are slowed
+    /// down with it, so that the error does not fall.
+    SpeedLimit,
     /// A set was left between samples: border `freeze` does not look ahead, and brings none back.
     Freeze,
     /// A set that moves could not be kept, and that was announced.
@@ -35,7 +38,7 @@ pub enum Class {
 
 impl Class {
     /// All of them.
-    pub const ALL: [Self; 12] = [
+    pub const ALL: [Self; 13] = [
         Self::None,
         Self::OnItsWay,
         Self::DependentTasks,
@@ -43,6 +46,7 @@ impl Class {
         Self::LocalMinimum,
         Self::ConflictOfSets,
         Self::FrozenInside,
+        Self::SpeedLimit,
         Self::Freeze,
         Self::Announced,
         Self::ServoLag,
@@ -60,6 +64,7 @@ impl Class {
             Self::LocalMinimum => "local-minimum",
             Self::ConflictOfSets => "conflict-of-sets",
             Self::FrozenInside => "frozen-inside",
+            Self::SpeedLimit => "speed-limit",
             Self::Freeze => "freeze",
             Self::Announced => "announced",
             Self::ServoLag => "servo-lag",
@@ -80,6 +85,7 @@ impl Class {
             Self::LocalMinimum => "the sets allow no motion that reduces the error",
             Self::ConflictOfSets => "a set that was never entered stays outside",
             Self::FrozenInside => "the rule holds a set that is strictly inside",
+            Self::SpeedLimit => "a joint at its speed limit slows down all others",
             Self::Freeze => "a set was left between samples, and border freeze brings none back",
             Self::Announced => "a set that moves could not be kept, as was announced",
             Self::ServoLag => "the reference kept every set, the arm behind it did not",

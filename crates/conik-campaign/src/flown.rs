@@ -66,8 +66,11 @@ struct Flight {
     ended_at_s: f64,
     /// Largest joint speed since the look back began.
     fastest: f64,
-    /// Errors of the equality tasks when it began.
+    /// Whether the velocity was shortened for a speed limit in every tick since then.
+    is_always_shortened: bool,
+    /// Errors of the equality tasks when it began, and how many waypoints had been reached.
     errors_before: Vec<f64>,
+    reached_before: u64,
     went_outside: bool,
     frozen_inside_at_the_end: bool,
 }
@@ -113,7 +116,9 @@ impl Flight {
             arrived_s: None,
             ended_at_s: 0.0,
             fastest: 0.0,
+            is_always_shortened: true,
             errors_before: Vec::new(),
+            reached_before: 0,
             went_outside: false,
             frozen_inside_at_the_end: false,
             experiment,
@@ -155,11 +160,13 @@ impl Flight {
             }
             if tick == look_from {
                 self.errors_before = self.errors();
+                self.reached_before = self.reached;
             }
             let step = self.experiment.controller.last_step();
             if tick >= look_from {
                 let fastest = step.qd.largest().map_or(0.0, |(_, speed)| speed);
                 self.fastest = self.fastest.max(fastest);
+                self.is_always_shortened &= step.speed_limit.is_some();
             }
             self.ended_at_s = t_s;
             if tick < last {
@@ -318,7 +325,11 @@ impl Flight {
         if self.falls(failing) {
             return Class::OnItsWay;
         }
-        of_rest(&self.experiment.robot, controller, failing, &self.q).unwrap_or(Class::Unexplained)
+        match of_rest(&self.experiment.robot, controller, failing, &self.q) {
+            Some(class) => class,
+            None if self.is_always_shortened => Class::SpeedLimit,
+            None => Class::Unexplained,
+        }
     }
 
     /// Whether a set of high priority was never entered.
@@ -330,8 +341,12 @@ impl Flight {
         sets.any(|(id, _)| self.monitor.history(id).entered_s.is_none())
     }
 
-    /// Whether the error of a task was still falling.
+    /// Whether the error of a task was still falling, or is one to another waypoint than it was.
     fn falls(&self, task: TaskId) -> bool {
+        let visits = self.experiment.waypoints.as_ref();
+        if visits.is_some_and(|visits| visits.task == task) && self.reached > self.reached_before {
+            return true;
+        }
         let stack = self.experiment.controller.stack();
         let equalities = stack.iter().filter(|(_, level)| level.interval().is_none());
         let errors = self.errors_before.iter().zip(self.errors());

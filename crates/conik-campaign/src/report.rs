@@ -234,6 +234,7 @@ fn colour(class: Class) -> &'static str {
         Class::LocalMinimum => "#e69f00",
         Class::ConflictOfSets => "#cc79a7",
         Class::FrozenInside => "#f0e442",
+        Class::SpeedLimit => "#004d40",
         Class::Freeze => "#999999",
         Class::Announced => "#c4c4c4",
         Class::ServoLag => "#7f5f3f",

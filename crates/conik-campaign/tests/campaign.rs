@@ -203,6 +203,21 @@ fn paper_s_borders_are_left_between_samples_and_ours_are_not() {
     }
 }
 
+/// The paper's rule from two of a hundred thousand starts: a waypoint is reached in the last second, and the
+/// wrist turns at full speed from the first second to the last.
+#[test]
+fn arm_that_does_not_rest_has_a_class_too() {
+    let example = include_str!("../../../scenarios/paper/example1.toml");
+    let scenario = Scenario::from_toml(example).expect("it is right");
+    let plan = Plan::new(scenario, 100_000, 1, Varied::default()).unwrap();
+    let of = |run| {
+        let row = row(&plan.case(run).unwrap()).unwrap();
+        (row.class, row.waypoints_reached)
+    };
+    assert_eq!(of(38_694), (Class::OnItsWay, 1));
+    assert_eq!(of(53_700), (Class::SpeedLimit, 0));
+}
+
 #[test]
 fn bound_is_wilson_s() {
     let of = |shown: u64, kept: u64| {
