@@ -19,7 +19,7 @@ pub enum Class {
     LocalMinimum,
     /// A set that never was entered is outside, and others do not let it in.
     ConflictOfSets,
-    /// The rule holds a set that is strictly inside, and the arm rests.
+    /// The rule holds a set that is strictly inside, and the error does not fall.
     FrozenInside,
     /// A joint turns at its speed limit all the time, as one does near a singularity, and all others are slowed
     /// down with it, so that the error does not fall.

@@ -1,6 +1,6 @@
 //! Running one case, and what becomes of it. Nothing is logged: a run costs its controller's steps and little more.
 
-use conik::{ActiveSet, Goal, JointVec, Monitor, PROPERTY_TOLERANCE, StackError, TaskId};
+use conik::{ActiveSet, Goal, JointVec, Monitor, PROPERTY_TOLERANCE, Reason, StackError, TaskId};
 use conik_sim::announced::Announcements;
 use conik_sim::experiment::{Experiment, ExperimentError};
 use conik_sim::scenario::DescriptionError;
@@ -72,7 +72,9 @@ struct Flight {
     errors_before: Vec<f64>,
     reached_before: u64,
     went_outside: bool,
-    frozen_inside_at_the_end: bool,
+    /// In how many ticks since the look back began, and of how many, a set strictly inside was held.
+    frozen_inside: u64,
+    looked_at: u64,
 }
 
 /// The arm behind its reference.
@@ -120,7 +122,8 @@ impl Flight {
             errors_before: Vec::new(),
             reached_before: 0,
             went_outside: false,
-            frozen_inside_at_the_end: false,
+            frozen_inside: 0,
+            looked_at: 0,
             experiment,
         })
     }
@@ -167,13 +170,15 @@ impl Flight {
                 let fastest = step.qd.largest().map_or(0.0, |(_, speed)| speed);
                 self.fastest = self.fastest.max(fastest);
                 self.is_always_shortened &= step.speed_limit.is_some();
+                let is_inside = |reason: &Reason| matches!(reason, Reason::HoldsInside { .. });
+                self.frozen_inside += u64::from(step.reasons().iter().any(is_inside));
+                self.looked_at += 1;
             }
             self.ended_at_s = t_s;
             if tick < last {
                 self.q = step.q_ref;
             }
         }
-        self.frozen_inside_at_the_end = self.holds_inside();
         Ok("completed")
     }
 
@@ -200,12 +205,6 @@ impl Flight {
         equalities
             .map(|(id, _)| controller.last_step().error_norm(id))
             .collect()
-    }
-
-    fn holds_inside(&self) -> bool {
-        let step = self.experiment.controller.last_step();
-        let inside = |reason: &conik::Reason| matches!(reason, conik::Reason::HoldsInside { .. });
-        step.reasons().iter().any(inside)
     }
 
     fn row(self, case: &Case, outcome: &'static str) -> Row {
@@ -314,22 +313,20 @@ impl Flight {
         if self.is_outside_at_the_end() {
             return Class::ConflictOfSets;
         }
-        if self.fastest < STILL {
-            let rests = of_rest(&self.experiment.robot, controller, failing, &self.q);
-            return match rests {
-                Some(class) => class,
-                None if self.frozen_inside_at_the_end => Class::FrozenInside,
-                None => Class::Unexplained,
-            };
-        }
-        if self.falls(failing) {
+        if self.fastest >= STILL && self.falls(failing) {
             return Class::OnItsWay;
         }
-        match of_rest(&self.experiment.robot, controller, failing, &self.q) {
-            Some(class) => class,
-            None if self.is_always_shortened => Class::SpeedLimit,
-            None => Class::Unexplained,
-        }
+        let rests = of_rest(&self.experiment.robot, controller, failing, &self.q);
+        rests.unwrap_or(
+            // Held only now and then, a set holds up nothing.
+            if 2 * self.frozen_inside > self.looked_at {
+                Class::FrozenInside
+            } else if self.is_always_shortened {
+                Class::SpeedLimit
+            } else {
+                Class::Unexplained
+            },
+        )
     }
 
     /// Whether a set of high priority was never entered.
