@@ -45,7 +45,11 @@ export class Live {
   /** `heard` is told what there is that is new. */
   open(heard: (news: News) => void): void {
     this.session.subscribe((news) => {
-      if (news !== "ticks") this.update();
+      if (news !== "ticks") {
+        // What is said of the run is said of all rows that came before it: of its end, and of where it paused.
+        if (this.run.rows > 0) this.clock.grow(this.run.begin_s, this.run.end_s);
+        this.update();
+      }
       heard(news);
     });
     this.update();
@@ -55,8 +59,6 @@ export class Live {
   update(): void {
     const { session, clock } = this;
     if (clock.live === session.isOver) {
-      // Whoever followed it sees its end.
-      clock.grow(this.run.begin_s, this.run.end_s);
       clock.live = !session.isOver;
       if (session.isOver) clock.following = false;
     }

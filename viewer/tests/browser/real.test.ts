@@ -47,6 +47,7 @@ describe("a scenario that runs in the page", () => {
   test("is followed, paused, stepped, sped up and restarted", async () => {
     await press("Pause the run");
     await page.locator(".state-chip[data-kind=paused]").waitFor();
+    await page.locator(".when", { hasText: "run paused" }).waitFor();
     const at = await shownTime(page);
     for (let tick = 0; tick < 5; tick++) await page.keyboard.press(".");
     await expect.poll(() => shownTime(page)).toBeGreaterThan(at + 0.025);
