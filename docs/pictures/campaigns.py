@@ -131,8 +131,8 @@ def curves(tables):
         panel.axvline(1e-6, color=GREY, linewidth=0.8, linestyle=":")
         panel.set(xscale="log", xlim=(least, 2), ylim=(-3, 103), title=f"Example {example}", xlabel="left by more than [m, or – for the view]")
     panels[0].set_ylabel("runs [%]")
-    panels[1].annotate("above: broken", (1.3e-6, 40), color=GREY, fontsize=9)
-    panels[2].legend(frameon=False, fontsize=9, loc="center left")
+    panels[1].annotate("right of this: broken", (1.3e-6, 12), color=GREY, fontsize=9)
+    panels[2].legend(frameon=False, fontsize=9, loc="upper right")
     save(figure, "campaigns-left.svg")
 
 
@@ -155,7 +155,8 @@ def bars(tables):
     axes.set_yticks(range(len(tables)), [f"Example {e}: {RULES[r]}" for e, r in tables], color=INK)
     axes.invert_yaxis()
     axes.set(xlim=(0, 100), xlabel="runs [%]")
-    figure.legend(seen.values(), seen.keys(), loc="outside lower center", ncols=6, frameon=False, fontsize=9)
+    names = ["none: everything kept" if name == "none" else name for name in seen]
+    figure.legend(seen.values(), names, loc="outside lower center", ncols=6, frameon=False, fontsize=9)
     save(figure, "campaigns-became.svg")
 
 
