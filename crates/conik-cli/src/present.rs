@@ -235,8 +235,8 @@ fn properties(summary: &Summary) -> String {
     if !high_priority_holds {
         let why = match summary.settings.scenario.control.border {
             Border::Freeze => {
-                "border `freeze` promises nothing between samples: such dips are of the order of \
-                 one period's motion"
+                "border `freeze` promises nothing between samples: a dip is of the order of \
+                 one period's motion, but is not brought back, and dips may add up"
             }
             Border::Land if was_announced(summary) => {
                 "border `land` promises 2 to 4. Each tick before had announced it: no velocity \

@@ -88,8 +88,8 @@ fn what_is_promised(run: &Run) -> &'static str {
     if run.summary().settings.scenario.control.border == Border::Freeze {
         "Properties 1 and 5 are observations: whether they hold depends on the scenario. Border \
          <code>freeze</code> promises nothing between samples: a set may be left by what the arm \
-         moves in one period before the task is frozen, as in the paper. Such dips are reported, \
-         not counted as faults."
+         moves in one period before the task is frozen, as in the paper. It is not brought back, so \
+         that such dips may add up. They are reported, not counted as faults."
     } else {
         "Properties 1 and 5 are observations: whether they hold depends on the scenario. \
          Properties 2 to 4 are promised by these settings."
