@@ -7,7 +7,12 @@ const VERTEX = /* glsl */ `
   varying vec3 vNormal;
   varying vec3 vView;
   void main() {
-    vec4 seen = modelViewMatrix * vec4(position, 1.0);
+    #ifdef USE_INSTANCING
+      // Of balls, whose normals this leaves as they are.
+      vec4 seen = modelViewMatrix * instanceMatrix * vec4(position, 1.0);
+    #else
+      vec4 seen = modelViewMatrix * vec4(position, 1.0);
+    #endif
     vNormal = normalMatrix * normal;
     vView = -seen.xyz;
     gl_Position = projectionMatrix * seen;
@@ -35,6 +40,10 @@ export type Kind = "solid" | "shell" | "sheet" | "cell";
 
 /** How much something wants to be seen: `thin` is what is behind everything else. */
 export type State = "rest" | "thin" | "lit" | "chosen";
+
+export function isBright(state: State): boolean {
+  return state === "lit" || state === "chosen";
+}
 
 export class Glass extends ShaderMaterial {
   constructor(private readonly kind: Kind = "solid") {
@@ -80,14 +89,13 @@ export class Glasses {
   /** Colours of what is at rest, of what is active, and of what somebody points at. */
   paint(rest: string, lit: string, chosen: string): void {
     const colours = { rest, thin: rest, lit, chosen };
-    const bright = (state: State) => state === "lit" || state === "chosen";
     for (const [key, glass] of this.glasses) {
       const state = key.split(" ")[1] as State;
-      glass.paint(colours[state], bright(state) ? 2.6 : 1, state === "thin");
+      glass.paint(colours[state], isBright(state) ? 2.6 : 1, state === "thin");
     }
     for (const [state, edge] of this.edges) {
       edge.color.set(colours[state]);
-      edge.opacity = bright(state) ? 0.9 : 0.35;
+      edge.opacity = isBright(state) ? 0.9 : 0.35;
     }
   }
 }

@@ -1,12 +1,13 @@
 // What the sets keep to, seen in space. It lights up while its task is active, and is drawn where it is
 // while it is on its way to where it shall be.
 
-import { BufferGeometry, EdgesGeometry, Group, LineSegments, Mesh, Raycaster, Vector3 } from "three";
+import { EdgesGeometry, Group, LineSegments, Mesh, Raycaster, Vector3 } from "three";
 import type { Glide, Scene } from "../protocol";
 import type { Gliding } from "../run";
+import { Balls } from "./balls";
 import type { Frames } from "./frames";
 import { geometryOf, point, sphere } from "./geometry";
-import { Glasses } from "./glass";
+import { Glasses, type State } from "./glass";
 import type { Look } from "./look";
 import { shiftAt } from "./motion";
 import { type Part, parts } from "./parts";
@@ -33,9 +34,12 @@ export class Regions {
   private readonly glasses = new Glasses();
   /** Of radius 1, for all balls. */
   private readonly ball = sphere(1);
+  private readonly balls: Balls;
   private readonly shift = new Vector3();
 
-  constructor(private readonly frames: Frames, private readonly reach: number) {}
+  constructor(private readonly frames: Frames, private readonly reach: number) {
+    this.balls = new Balls(frames, this.ball);
+  }
 
   /** Takes a scene. What has not changed in it stays. */
   take(scene: Scene): void {
@@ -51,14 +55,18 @@ export class Regions {
 
   /** Colours for the sets that are active; `chosen` is a task that somebody points at. */
   light(active: ReadonlySet<string>, colour: string | null, chosen: string | null, look: Look): void {
-    for (const { part, mesh, edges } of this.regions) {
-      const isLit = part.tasks.some((task) => active.has(task));
-      const isChosen = chosen !== null && (part.tasks.includes(chosen) || part.label === chosen);
-      const state = isLit ? "lit" : isChosen ? "chosen" : part.isThin ? "thin" : "rest";
-      mesh.material = this.glasses.glass(part.kind, state);
+    const stateOf = ({ tasks, label, isThin }: Part): State => {
+      if (tasks.some((task) => active.has(task))) return "lit";
+      if (chosen !== null && (tasks.includes(chosen) || label === chosen)) return "chosen";
+      return isThin ? "thin" : "rest";
+    };
+    const states = this.regions.map((region) => ({ region, state: stateOf(region.part) }));
+    for (const { region: { part, mesh, edges }, state } of states) {
+      if (!isBall(part)) mesh.material = this.glasses.glass(part.kind, state);
       if (edges) edges.material = this.glasses.edge(state);
     }
-    this.glasses.paint(look.glass, colour ?? look.glass, look.accent);
+    this.balls.arrange(states.filter(({ region }) => isBall(region.part)).map(({ region, state }) => ({ ball: region, state })));
+    for (const glasses of [this.glasses, this.balls]) glasses.paint(look.glass, colour ?? look.glass, look.accent);
   }
 
   /** The task whose region a ray meets first: of several the one that is active. Planes are behind everything. */
@@ -97,6 +105,7 @@ export class Regions {
       this.widen(region, glide);
       object.updateMatrix();
       object.matrixWorldNeedsUpdate = true;
+      if (isBall(part)) this.balls.move(region);
     }
   }
 
@@ -128,6 +137,8 @@ export class Regions {
       middle.copy(point(shape.center_m));
       mesh.position.copy(middle);
       mesh.scale.setScalar(shape.radius_m);
+      // Drawn with the other balls, but found by a ray.
+      mesh.visible = false;
     }
     // What moves moves as a whole; nothing in it does.
     for (const each of [object, ...object.children]) {
@@ -140,9 +151,13 @@ export class Regions {
 
   private drop({ mesh, edges, object }: Region): void {
     object.removeFromParent();
-    if (mesh.geometry !== (this.ball as BufferGeometry)) mesh.geometry.dispose();
+    if (mesh.geometry !== this.ball) mesh.geometry.dispose();
     edges?.geometry.dispose();
   }
+}
+
+function isBall({ shape }: Part): boolean {
+  return shape.type === "sphere";
 }
 
 function isSame(a: Part, b: Part): boolean {

@@ -15,6 +15,8 @@ export class Room {
   readonly object = new Group();
   private readonly lines = new LineBasicMaterial({ transparent: true });
   private readonly shadow = new ShadowMaterial({ transparent: true, depthWrite: false });
+  private readonly ground: Mesh;
+  private readonly sun: DirectionalLight;
 
   constructor({ middle, radius, floor }: Extent) {
     const step = radius > 2 ? 0.5 : 0.1;
@@ -27,23 +29,31 @@ export class Room {
     // Lines are where coordinates are round.
     const round = (value: number) => Math.round(value / step) * step;
     grid.position.set(round(middle.x), round(middle.y), floor);
-    const ground = new Mesh(new PlaneGeometry(4 * half, 4 * half), this.shadow);
+    const ground = (this.ground = new Mesh(new PlaneGeometry(4 * half, 4 * half), this.shadow));
     ground.position.set(grid.position.x, grid.position.y, floor - 1e-3);
     ground.receiveShadow = true;
     // What is seen through is seen before the floor.
     [grid.renderOrder, ground.renderOrder] = [-1, -2];
-    this.object.add(grid, ground, ...lights(middle.toArray(), radius));
+    this.sun = sun(middle.toArray(), radius);
+    this.object.add(grid, ground, this.sun, this.sun.target, ...lights(middle.toArray(), radius));
   }
 
   paint(look: Look): void {
     this.lines.color.set(look.grid);
     this.shadow.opacity = look.shadow;
   }
+
+  /** Whether things throw shadows. */
+  throwShadows(are: boolean): void {
+    this.sun.castShadow = are;
+    this.ground.visible = are;
+  }
 }
 
-function lights([x, y, z]: readonly [number, number, number], radius: number): Object3D[] {
-  const sky = new HemisphereLight(0xffffff, 0xb8bec8, 1.7);
-  sky.position.set(0, 0, 1);
+type Point = readonly [number, number, number];
+
+/** The one light that throws shadows. */
+function sun([x, y, z]: Point, radius: number): DirectionalLight {
   const sun = new DirectionalLight(0xffffff, 2.1);
   sun.position.set(x + 0.8 * radius, y - 1.1 * radius, z + 2.6 * radius);
   sun.target.position.set(x, y, z);
@@ -57,10 +67,16 @@ function lights([x, y, z]: readonly [number, number, number], radius: number): O
   camera.right = camera.top = 1.5 * radius;
   camera.near = 0.1 * radius;
   camera.far = 7 * radius;
+  return sun;
+}
+
+function lights([x, y, z]: Point, radius: number): Object3D[] {
+  const sky = new HemisphereLight(0xffffff, 0xb8bec8, 1.7);
+  sky.position.set(0, 0, 1);
   const fill = new DirectionalLight(0xffffff, 0.5);
   fill.position.set(x - 2 * radius, y + radius, z + radius);
   fill.target.position.set(x, y, z);
-  return [sky, sun, sun.target, fill, fill.target];
+  return [sky, fill, fill.target];
 }
 
 /** A frame: its x, y and z axis. */

@@ -1,14 +1,13 @@
 // The scene of one run in three dimensions, and the camera that looks at it.
 
-import {
-  Object3D, PCFShadowMap, PerspectiveCamera, Raycaster, Scene, Vector2, Vector3, WebGLRenderer,
-} from "three";
+import { Object3D, PerspectiveCamera, Raycaster, Scene, Vector2, Vector3 } from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import { element } from "../element";
 import { Kinematics } from "../kinematics";
 import type { Scene as Facts } from "../protocol";
 import type { Run } from "../run";
 import { Arm } from "./arm";
+import { Draughtsman } from "./draughtsman";
 import { Frames } from "./frames";
 import { extent, type Extent } from "./extent";
 import { Labels } from "./labels";
@@ -40,7 +39,7 @@ export class Stage {
   onCamera: (() => void) | null = null;
   /** Told which task a person points at in the scene. */
   onPoint: ((task: string | null) => void) | null = null;
-  private readonly renderer: WebGLRenderer;
+  private readonly draughtsman: Draughtsman;
   private readonly scene = new Scene();
   private readonly camera = new PerspectiveCamera(FIELD, 1, 0.01, 100);
   private readonly controls: OrbitControls;
@@ -77,9 +76,6 @@ export class Stage {
 
   /** Throws where there is no WebGL. `bench` takes what hands do in the scene, where they may. */
   constructor(private readonly run: Run, bench: Bench | null = null) {
-    this.renderer = new WebGLRenderer({ antialias: true });
-    this.renderer.shadowMap.enabled = true;
-    this.renderer.shadowMap.type = PCFShadowMap;
     this.camera.up.set(0, 0, 1);
     this.kinematics = new Kinematics(run.scene.robot);
     this.extent = extent(run, solidCorners(run.scene));
@@ -92,13 +88,14 @@ export class Stage {
     this.path = new Path(run);
     this.waypoints = new Waypoints(run, this.frames, reach);
     this.room = new Room(this.extent);
+    this.draughtsman = new Draughtsman((are) => this.room.throwShadows(are));
     this.frames.tool.add(triad(0.14 * reach));
     const parts: Object3D[] = [
       this.arm.object, this.frames.object, this.views.object, this.path.object,
       this.room.object, this.measured.object, triad(0.09 * reach),
     ];
     this.scene.add(...parts);
-    const canvas = this.renderer.domElement;
+    const { canvas } = this.draughtsman;
     canvas.setAttribute("role", "img");
     this.element = element("div", { class: "stage" }, canvas, this.labels.element);
     this.controls = new OrbitControls(this.camera, canvas);
@@ -138,7 +135,11 @@ export class Stage {
   /** Draws, if anything has changed. */
   draw(): void {
     if (this.pointed) this.point(this.pointed);
-    if (!this.isDirty || this.row < 0) return;
+    if (this.row < 0) return;
+    if (!this.isDirty) {
+      this.draughtsman.finish(this.scene, this.camera);
+      return;
+    }
     this.isDirty = false;
     this.kinematics.update((joint) => this.run.q(joint, this.row));
     const gliding = this.run.glidingAt(this.t_s);
@@ -151,7 +152,7 @@ export class Stage {
     this.path.update(this.row);
     this.mover?.update(this.t_s, gliding);
     if (!this.isPainted) this.light();
-    this.renderer.render(this.scene, this.camera);
+    this.draughtsman.draw(this.scene, this.camera);
     this.placeLabels();
   }
 
@@ -166,7 +167,7 @@ export class Stage {
   /** Takes on the colours of the theme that is in force now. */
   paint(): void {
     this.look = look();
-    this.renderer.setClearColor(this.look.background);
+    this.draughtsman.paint(this.look.background);
     this.arm.paint(this.look.limb, this.look.housing, this.look.ring);
     this.room.paint(this.look);
     this.path.paint(this.look);
@@ -226,7 +227,7 @@ export class Stage {
 
   /** What is seen, for those who do not see it. */
   describe(text: string): void {
-    this.renderer.domElement.setAttribute("aria-label", text);
+    this.draughtsman.canvas.setAttribute("aria-label", text);
   }
 
   private followPointer(event: PointerEvent): void {
@@ -285,8 +286,7 @@ export class Stage {
   private resize({ width, height }: DOMRectReadOnly): void {
     if (width === 0 || height === 0) return;
     this.size = { width, height };
-    this.renderer.setPixelRatio(Math.min(window.devicePixelRatio, 2));
-    this.renderer.setSize(width, height);
+    this.draughtsman.resize(width, height);
     this.camera.aspect = width / height;
     this.camera.updateProjectionMatrix();
     if (!this.hasMoved) this.fit();

@@ -2,7 +2,7 @@
 
 import { type Browser, type BrowserContextOptions, type Page, chromium } from "playwright-core";
 
-const WITH_3D = ["--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--ignore-gpu-blocklist"];
+const WITH_3D = ["--disable-gpu", "--enable-unsafe-swiftshader"];
 const WITHOUT_3D = ["--disable-gpu", "--disable-3d-apis"];
 
 export function open(has3d = true): Promise<Browser> {

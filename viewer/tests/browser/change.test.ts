@@ -7,7 +7,7 @@ import type { Recording } from "../../src/protocol";
 import { open, visit } from "./browser";
 import { Folder, ran, Served } from "./conik";
 import { Mock } from "./mock";
-import { drag, labelled, spotOf } from "./scene";
+import { drag, labelled, spotOf, still } from "./scene";
 
 let folder: Folder, browser: Browser, recording: Recording, mock: Mock;
 
@@ -111,9 +111,7 @@ describe("in the scene", () => {
     const page = await follow();
     await page.keyboard.press(" ");
     await page.locator(".state-chip[data-kind=paused]").waitFor();
-    const picture = () => page.locator(".stage canvas").screenshot();
-    await page.waitForTimeout(500);
-    const before = await picture();
+    const before = await still(page);
     // The run stands, so that what it is told to do is yet to come.
     mock.scene = { ...mock.scene, tasks: mock.scene.tasks.map((task) => (task.name === "obstacle_b" ? { ...task, point_m: [0.5, 0.1, -0.1] } : task)) };
     const asked = mock.asked.length;
@@ -123,7 +121,7 @@ describe("in the scene", () => {
     await expect.poll(() => mock.asked.length).toBe(asked + 1);
     await page.keyboard.press("Escape");
     await page.keyboard.press("Escape");
-    await expect.poll(async () => (await picture()).equals(before)).toBe(false);
+    await expect.poll(async () => (await still(page)).equals(before)).toBe(false);
   });
 });
 

@@ -7,6 +7,7 @@ import type { Recording } from "../../src/protocol";
 import { ModeColours, Run } from "../../src/run";
 import { open, shownTime, visit } from "./browser";
 import { Folder, ran, Served } from "./conik";
+import { fineness, still } from "./scene";
 
 let folder: Folder, browser: Browser, example: Served, recording: Recording;
 
@@ -59,13 +60,23 @@ describe("the page", () => {
     const picture = async (key: string, t_s: number) => {
       await page.keyboard.press(key);
       await expect.poll(() => shownTime(page)).toBe(t_s);
-      return page.locator(".stage canvas").screenshot();
+      return still(page);
     };
     const start = await picture("Home", 0);
     const later = await picture("Shift+ArrowRight", 10);
     const again = await picture("Home", 0);
     expect(later.equals(start)).toBe(false);
     expect(again.equals(start)).toBe(true);
+    await page.context().close();
+  });
+
+  test("draws roughly in software what moves, and finely what stands still", async () => {
+    const { page } = await visit(browser, `${example.url}#t=0`);
+    await still(page);
+    await page.keyboard.press(" ");
+    await expect.poll(() => fineness(page)).toBeCloseTo(1, 1);
+    await page.keyboard.press(" ");
+    await still(page);
     await page.context().close();
   });
 

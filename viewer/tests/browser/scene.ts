@@ -1,6 +1,7 @@
 // Finding things in the scene: a browser shows only pixels, and what it says when a pointer is over them.
 
 import type { Page } from "playwright-core";
+import { expect } from "vitest";
 
 export interface Spot {
   x: number;
@@ -23,6 +24,17 @@ export async function spotOf(page: Page, says: RegExp): Promise<Spot> {
     }
   }
   throw new Error(`nothing in the scene says ${String(says)}`);
+}
+
+/** How many pixels of the picture are drawn for one that is seen, across. */
+export function fineness(page: Page): Promise<number> {
+  return page.locator(".stage canvas").evaluate((it) => (it as HTMLCanvasElement).width / it.clientWidth);
+}
+
+/** The scene as it is once it stands still: where software draws, what moves is drawn roughly. */
+export async function still(page: Page): Promise<Buffer> {
+  await expect.poll(() => fineness(page)).toBeCloseTo(2, 1);
+  return page.locator(".stage canvas").screenshot();
 }
 
 /** The point of the scene that a label belongs to. */
