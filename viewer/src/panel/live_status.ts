@@ -26,7 +26,7 @@ export class LiveStatus {
 
   constructor(private readonly session: Session, private readonly run: Run) {
     this.again = button("Try again now", "Try again now", () => session.open());
-    this.chips = [this.state, this.pace, this.missed, this.end];
+    this.chips = [this.state, this.missed, this.end, this.pace];
     this.banner.append(this.words, this.again);
     this.update();
   }
