@@ -189,34 +189,49 @@ fn run_large(mut controller: Controller, settings: Settings) -> usize {
     most_active
 }
 
-#[test]
-fn no_tick_allocates() {
-    for settings in all_settings() {
-        for number in 1..=3 {
-            assert!(run_example(number, settings) >= 1, "sets were active");
-        }
-        let unlimited = JointLimits::default();
-        let limited = JointLimits {
-            speed: Some(2.0),
-            acceleration: Some(20.0),
-            position: None,
-        };
-        let mut on_demand = large(settings, unlimited);
-        on_demand.measure_on_demand();
-        let mut controllers = vec![
-            (large(settings, unlimited), 2),
-            (on_demand, 2),
-            (of_all_types(settings), 1),
-        ];
-        if settings.mode_rule == ModeRule::Cone {
-            controllers.push((large(settings, limited), 1));
-        }
-        for (controller, least) in controllers {
-            let active = run_large(controller, settings);
-            assert!(active >= least, "{active} sets were active, {settings:?}");
-        }
+/// Ticks of the examples under these settings.
+fn run_examples(settings: Settings) {
+    for number in 1..=3 {
+        assert!(run_example(number, settings) >= 1, "sets were active");
     }
     let before = allocations();
     drop(std::hint::black_box(Box::new(1)));
     assert!(allocations() > before, "the counter counts");
+}
+
+/// Large stacks, and how many sets are active in them at least.
+fn large_stacks(settings: Settings) -> Vec<(Controller, usize)> {
+    let unlimited = JointLimits::default();
+    let limited = JointLimits {
+        speed: Some(2.0),
+        acceleration: Some(20.0),
+        position: None,
+    };
+    let mut on_demand = large(settings, unlimited);
+    on_demand.measure_on_demand();
+    let mut controllers = vec![
+        (large(settings, unlimited), 2),
+        (on_demand, 2),
+        (of_all_types(settings), 1),
+    ];
+    if settings.mode_rule == ModeRule::Cone {
+        controllers.push((large(settings, limited), 1));
+    }
+    controllers
+}
+
+/// Each thread counts its own.
+#[test]
+fn no_tick_allocates() {
+    std::thread::scope(|scope| {
+        for settings in all_settings() {
+            scope.spawn(move || run_examples(settings));
+            for (controller, least) in large_stacks(settings) {
+                scope.spawn(move || {
+                    let active = run_large(controller, settings);
+                    assert!(active >= least, "{active} sets were active, {settings:?}");
+                });
+            }
+        }
+    });
 }

@@ -10,21 +10,24 @@ import { Mock } from "./mock";
 import { drag, labelled, spotOf, still } from "./scene";
 
 let folder: Folder, browser: Browser, recording: Recording, mock: Mock;
+/** For what has nothing to do with the scene, which software draws slowly. */
+let flat: Browser;
 
 beforeAll(async () => {
-  [folder, browser] = [await Folder.make(), await open()];
+  [folder, browser, flat] = await Promise.all([Folder.make(), open(), open(false)]);
   const served = await Served.of(await ran(folder, "paper/example2", "--duration-s", "20"));
   recording = await (await fetch(`${served.url}recording.json`)).json();
   served.stop();
 });
 
 afterEach(async () => {
-  for (const context of browser.contexts()) await context.close();
+  for (const context of [browser, flat].flatMap((each) => each.contexts())) await context.close();
   await mock?.stop();
 });
 
 afterAll(async () => {
   await browser?.close();
+  await flat?.close();
   await folder?.remove();
 });
 
@@ -35,6 +38,8 @@ async function follow(options: Parameters<typeof Mock.of>[1] = {}, context: Brow
   await page.locator(".about").getByRole("button", { name: "Close" }).click();
   return page;
 }
+
+const followFlat = (context: BrowserContextOptions = {}): Promise<Page> => follow({}, context, flat);
 
 const row = (page: Page, name: string) => page.locator(".task", { has: page.locator(`.name:text-is("${name}")`) });
 const names = (page: Page) => page.locator(".hierarchy .name").allTextContents();
@@ -127,7 +132,7 @@ describe("in the scene", () => {
 
 describe("as numbers", () => {
   test("a bound is changed in the unit that is shown", async () => {
-    const page = await follow();
+    const page = await followFlat();
     await page.getByRole("button", { name: "Change view", exact: true }).click();
     const most = page.getByLabel("greatest [°]");
     expect(Number(await most.inputValue())).toBeCloseTo(15.07, 1);
@@ -140,7 +145,7 @@ describe("as numbers", () => {
   });
 
   test("what is refused stands beside what was changed, and the old value is back", async () => {
-    const page = await follow();
+    const page = await followFlat();
     await page.getByRole("button", { name: "Change obstacle_a", exact: true }).click();
     const least = page.getByLabel("least [mm]");
     await least.fill("5000");
@@ -158,7 +163,7 @@ describe("as numbers", () => {
   });
 
   test("a key that need not be there is taken away", async () => {
-    const page = await follow();
+    const page = await followFlat();
     await page.getByRole("button", { name: "Change obstacle_a", exact: true }).click();
     const recovery = page.getByLabel("recovery [mm/s]");
     await recovery.fill("10");
@@ -172,7 +177,7 @@ describe("as numbers", () => {
   });
 
   test("a bound is dragged on its bar", async () => {
-    const page = await follow();
+    const page = await followFlat();
     const grip = row(page, "obstacle_a").locator(".bound:visible");
     const box = (await grip.boundingBox())!;
     await page.mouse.move(box.x + box.width / 2, box.y + box.height / 2);
@@ -183,31 +188,26 @@ describe("as numbers", () => {
   });
 
   test("settings are chosen", async () => {
-    const page = await follow();
+    const page = await followFlat();
     await page.getByLabel("recursion").selectOption("siciliano-slotine");
     await expect.poll(() => mock.scene.settings.recursion).toBe("siciliano-slotine");
     expect(mock.changes).toEqual([{ control: "recursion", value: "siciliano-slotine" }]);
   });
 
   test("can be changed without 3-D", async () => {
-    const flat = await open(false);
-    try {
-      const page = await follow({}, {}, flat);
-      expect(await page.locator(".no-3d").isVisible()).toBe(true);
-      await page.getByRole("button", { name: "Change obstacle_b", exact: true }).click();
-      const z = row(page, "obstacle_b").getByLabel("z [m]");
-      await z.fill("-0.1");
-      await z.press("Enter");
-      await expect.poll(() => pointOf("obstacle_b")[2]).toBe(-0.1);
-    } finally {
-      await flat.close();
-    }
+    const page = await followFlat();
+    expect(await page.locator(".no-3d").isVisible()).toBe(true);
+    await page.getByRole("button", { name: "Change obstacle_b", exact: true }).click();
+    const z = row(page, "obstacle_b").getByLabel("z [m]");
+    await z.fill("-0.1");
+    await z.press("Enter");
+    await expect.poll(() => pointOf("obstacle_b")[2]).toBe(-0.1);
   });
 });
 
 describe("the order", () => {
   test("is changed by keys, by buttons, and by a hand", async () => {
-    const page = await follow({}, { viewport: { width: 900, height: 1100 } });
+    const page = await followFlat({ viewport: { width: 900, height: 1100 } });
     await row(page, "obstacle_a").focus();
     await page.keyboard.press("Alt+ArrowDown");
     await expect.poll(() => names(page)).toEqual(["obstacle_b", "obstacle_a", "view", "position"]);
@@ -230,7 +230,7 @@ describe("the order", () => {
 
 describe("all changes", () => {
   test("are taken back at once, and nothing is marked any more", async () => {
-    const page = await follow();
+    const page = await followFlat();
     await row(page, "obstacle_a").focus();
     await page.getByRole("button", { name: "Change obstacle_a", exact: true }).click();
     await page.getByLabel("least [mm]").fill("210");
@@ -243,7 +243,7 @@ describe("all changes", () => {
   });
 
   test("are kept as a scenario, with the command that runs it", async () => {
-    const page = await follow();
+    const page = await followFlat();
     const [download] = await Promise.all([page.waitForEvent("download"), page.getByRole("button", { name: "Save as scenario" }).click()]);
     expect(download.suggestedFilename()).toBe("mock.toml");
     expect(await readFile(await download.path(), "utf8")).toBe('title = "mock"\n');

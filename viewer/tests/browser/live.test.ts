@@ -9,29 +9,32 @@ import { Folder, ran, Served } from "./conik";
 import { Mock } from "./mock";
 
 let folder: Folder, browser: Browser, recording: Recording, mock: Mock | undefined;
+/** For what has nothing to do with the scene, which software draws slowly. */
+let flat: Browser;
 
 beforeAll(async () => {
-  [folder, browser] = [await Folder.make(), await open()];
+  [folder, browser, flat] = await Promise.all([Folder.make(), open(), open(false)]);
   const served = await Served.of(await ran(folder, "paper/example2", "--duration-s", "20"));
   recording = await (await fetch(`${served.url}recording.json`)).json();
   served.stop();
 });
 
 afterEach(async () => {
-  for (const context of browser.contexts()) await context.close();
+  for (const context of [browser, flat].flatMap((each) => each.contexts())) await context.close();
   await mock?.stop();
   mock = undefined;
 });
 
 afterAll(async () => {
   await browser?.close();
+  await flat?.close();
   await folder?.remove();
 });
 
 /** A page of a run that is going on, without the explanation over it. */
-async function follow(options: Parameters<typeof Mock.of>[1] = {}, query = ""): Promise<Visit & { mock: Mock }> {
+async function follow(options: Parameters<typeof Mock.of>[1] = {}, query = "", through = flat): Promise<Visit & { mock: Mock }> {
   mock = await Mock.of(recording, options);
-  const found = await visit(browser, `${mock.url}${query}`, { viewport: { width: 900, height: 620 } });
+  const found = await visit(through, `${mock.url}${query}`, { viewport: { width: 900, height: 620 } });
   await found.page.locator(".state-chip[data-kind=running]").waitFor();
   await found.page.locator(".about").getByRole("button", { name: "Close" }).click();
   return { ...found, mock };
@@ -41,7 +44,7 @@ const press = (page: Page, name: string) => page.getByRole("button", { name, exa
 
 describe("the page of a run that is going on", () => {
   test("goes with it, without a complaint", async () => {
-    const { page, complaints } = await follow();
+    const { page, complaints } = await follow({}, "", browser);
     const first = await shownTime(page);
     await expect.poll(() => shownTime(page)).toBeGreaterThan(first + 1);
     expect(await page.locator(".live").getAttribute("aria-pressed")).toBe("true");

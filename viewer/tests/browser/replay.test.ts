@@ -10,11 +10,14 @@ import { Folder, ran, Served } from "./conik";
 import { fineness, still } from "./scene";
 
 let folder: Folder, browser: Browser, example: Served, recording: Recording;
+/** For what has nothing to do with the scene, which software draws slowly. */
+let flat: Browser;
 
 beforeAll(async () => {
   folder = await Folder.make();
-  [browser, example] = await Promise.all([
+  [browser, flat, example] = await Promise.all([
     open(),
+    open(false),
     ran(folder, "paper/example2", "--duration-s", "20").then((dir) => Served.of(dir)),
   ]);
   recording = await (await fetch(`${example.url}recording.json`)).json();
@@ -23,6 +26,7 @@ beforeAll(async () => {
 afterAll(async () => {
   example?.stop();
   await browser?.close();
+  await flat?.close();
   await folder?.remove();
 });
 
@@ -43,7 +47,7 @@ describe("the page", () => {
   test("shows at every change of mode what the log has there", async () => {
     const run = new Run(recording.runs[0]!, new ModeColours());
     expect(run.spans.length).toBeGreaterThan(3);
-    const { page } = await visit(browser, example.url);
+    const { page } = await visit(flat, example.url);
     for (const span of run.spans.slice(1)) {
       await page.keyboard.press("]");
       await expect.poll(() => shownTime(page)).toBeCloseTo(span.from_s, 2);
@@ -81,7 +85,7 @@ describe("the page", () => {
   });
 
   test("is steered by keys", async () => {
-    const { page } = await visit(browser, `${example.url}#t=5`);
+    const { page } = await visit(flat, `${example.url}#t=5`);
     const steps: [string, number][] = [
       ["ArrowRight", 6], ["ArrowLeft", 5], [".", 5.01], [",", 5], ["Shift+ArrowRight", 15], ["End", 20], ["Home", 0],
     ];
@@ -102,7 +106,7 @@ describe("the page", () => {
   });
 
   test("plays, and stops at the end", async () => {
-    const { page } = await visit(browser, `${example.url}#t=18`);
+    const { page } = await visit(flat, `${example.url}#t=18`);
     await page.locator("select[aria-label='Speed of replay']").selectOption("8");
     await page.getByRole("button", { name: "Play", exact: true }).click();
     await expect.poll(() => shownTime(page)).toBe(20);
@@ -111,7 +115,7 @@ describe("the page", () => {
   });
 
   test("has an address for every moment", async () => {
-    const { page } = await visit(browser, `${example.url}#t=12.5`);
+    const { page } = await visit(flat, `${example.url}#t=12.5`);
     await expect.poll(() => shownTime(page)).toBe(12.5);
     await page.keyboard.press("ArrowRight");
     await expect.poll(() => page.url()).toMatch(/#t=13\.5$/);
@@ -121,7 +125,7 @@ describe("the page", () => {
   });
 
   test("goes where somebody presses in the timeline or in a plot", async () => {
-    const { page } = await visit(browser, example.url);
+    const { page } = await visit(flat, example.url);
     for (const place of [".timeline .canvas", ".plot .canvas"]) {
       await page.keyboard.press("Home");
       const box = (await page.locator(place).first().boundingBox())!;
@@ -133,7 +137,7 @@ describe("the page", () => {
   });
 
   test("plots any column", async () => {
-    const { page } = await visit(browser, example.url);
+    const { page } = await visit(flat, example.url);
     await page.locator("select[aria-label='Add a plot']").selectOption("qd2_rad_s");
     expect(await page.locator(".plot h3").allTextContents()).toContain("shoulder_lift_joint speed [°/s]");
     await page.getByRole("button", { name: "Remove the plot of shoulder_lift_joint speed" }).click();
@@ -142,7 +146,7 @@ describe("the page", () => {
   });
 
   test("leaves out what is inside, if asked to, also while it plays", async () => {
-    const { page } = await visit(browser, `${example.url}#t=17`);
+    const { page } = await visit(flat, `${example.url}#t=17`);
     await page.getByLabel("only what is held").check();
     const shown = () => page.locator(".task .name:visible").allTextContents();
     await expect.poll(shown).toEqual(["obstacle_b", "view", "position"]);
@@ -174,7 +178,7 @@ describe("the page", () => {
   });
 
   test("explains itself once", async () => {
-    const { page } = await visit(browser, example.url);
+    const { page } = await visit(flat, example.url);
     await page.locator(".about button").click();
     await page.reload();
     await page.locator(".task").first().waitFor();
