@@ -32,7 +32,9 @@ def provide_conik(path):
 
 
 def provide_wheel(python, wheel=None):
-    """Installs the Python package into an environment that has maturin; builds it if no wheel is given."""
+    """Installs the Python package into an environment that has maturin; builds it if no wheel is given, nor stands
+    in the environment."""
+    wheel = wheel or os.environ.get("CONIK_WHEEL")
     install = [python, "-m", "pip", "install", "--quiet", "--disable-pip-version-check", "--no-index", "--no-deps"]
     if wheel is not None:
         subprocess.run([*install, "--force-reinstall", wheel], check=True)

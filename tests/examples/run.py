@@ -79,7 +79,9 @@ def check_claims(output, claims):
 def check_pair(name, claims, python, folder):
     """The same figures in both languages, and what is claimed of them."""
     in_python = output_of_python(python, name, folder)
-    in_rust = output_of(["cargo", "run", "--quiet", "--package", "conik", "--example", name])
+    # Of the whole workspace, which the Rust tests have built.
+    output_of(["cargo", "build", "--quiet", "--workspace", "--example", name])
+    in_rust = output_of([TARGET / "debug" / "examples" / name])
     # The runs are the same to the bit, so the figures are to the last digit.
     if in_python != in_rust:
         raise Failed(f"in Python\n{in_python}and in Rust\n{in_rust}")

@@ -39,13 +39,29 @@ impl Step {
 /// Where tests in other languages find the command that the Rust tests were run with.
 const COMMAND: &str = "CONIK";
 
+/// Where they find the Python package that its own tests have built.
+const WHEEL: &str = "CONIK_WHEEL";
+
 /// The command, if it was built.
 fn built_command() -> Option<PathBuf> {
-    let target = std::env::var_os("CARGO_TARGET_DIR").map_or(root().join("target"), PathBuf::from);
     let name = format!("conik{}", std::env::consts::EXE_SUFFIX);
-    std::path::absolute(target.join("debug").join(name))
-        .ok()
-        .filter(|path| path.is_file())
+    let path = target()?.join("debug").join(name);
+    path.is_file().then_some(path)
+}
+
+/// The newest wheel, if one was built.
+fn built_wheel() -> Option<PathBuf> {
+    let wheels = std::fs::read_dir(target()?.join("wheels")).ok()?;
+    wheels
+        .filter_map(|entry| entry.ok().map(|entry| entry.path()))
+        .filter(|path| path.extension().is_some_and(|extension| extension == "whl"))
+        .max_by_key(|path| path.metadata().and_then(|data| data.modified()).ok())
+}
+
+/// What is built stands there.
+fn target() -> Option<PathBuf> {
+    let folder = std::env::var_os("CARGO_TARGET_DIR").map_or(root().join("target"), PathBuf::from);
+    std::path::absolute(folder).ok()
 }
 
 /// Runs the steps in order and stops at the first that fails.
@@ -70,6 +86,7 @@ pub fn run(steps: &[Step]) -> ExitCode {
             .args(&step.command[1..])
             .envs(step.environment.iter().copied())
             .envs(built_command().map(|path| (COMMAND, path)))
+            .envs(built_wheel().map(|path| (WHEEL, path)))
             .current_dir(&folder)
             .status();
         let line = step.command.join(" ");

@@ -2,6 +2,7 @@
 
     python3 tests/in_environment.py [ARGUMENTS OF PYTEST]
 """
+import os
 import subprocess
 import sys
 from pathlib import Path
@@ -26,6 +27,8 @@ PACKAGES = [
 
 def main():
     python = provide_packages(TARGET / "conik-py-python", PACKAGES)
+    # What is tested is built from these sources, whatever was before.
+    os.environ.pop("CONIK_WHEEL", None)
     provide_wheel(python)
     steps = [
         # The installed package, not the folder of its sources.
