@@ -14,14 +14,9 @@ export interface Ball {
   object: Group;
 }
 
-interface Flock {
-  mesh: InstancedMesh;
-  room: number;
-}
-
 export class Balls {
   private readonly glasses = new Glasses();
-  private readonly flocks = new Map<string, Flock>();
+  private readonly flocks = new Map<string, InstancedMesh>();
   /** Where each ball is drawn: in which mesh, and which of its balls it is. */
   private readonly seats = new Map<Ball, { mesh: InstancedMesh; nth: number }>();
   private readonly matrix = new Matrix4();
@@ -32,11 +27,13 @@ export class Balls {
   /** Draws these balls, each as its state asks for, and no others. */
   arrange(balls: readonly { ball: Ball; state: State }[]): void {
     this.seats.clear();
-    for (const { mesh } of this.flocks.values()) mesh.count = 0;
+    for (const mesh of this.flocks.values()) mesh.count = 0;
     const alike = new Map<string, Ball[]>();
     for (const { ball, state } of balls) {
       const key = `${ball.part.kind} ${state} ${ball.part.frame ?? ""}`;
-      alike.set(key, [...(alike.get(key) ?? []), ball]);
+      const group = alike.get(key);
+      if (group) group.push(ball);
+      else alike.set(key, [ball]);
     }
     for (const [key, group] of alike) {
       const mesh = this.flock(key, group);
@@ -62,14 +59,12 @@ export class Balls {
   /** A mesh with room for a group of balls, which are alike. */
   private flock(key: string, group: Ball[]): InstancedMesh {
     const known = this.flocks.get(key);
-    if (known && known.room >= group.length) {
-      known.mesh.count = group.length;
-      return known.mesh;
+    if (known && known.instanceMatrix.count >= group.length) {
+      known.count = group.length;
+      return known;
     }
-    if (known) {
-      known.mesh.removeFromParent();
-      known.mesh.dispose();
-    }
+    known?.removeFromParent();
+    known?.dispose();
     const [kind, state] = key.split(" ") as [Kind, State];
     const mesh = new InstancedMesh(this.geometry, this.glasses.glass(kind, state), group.length);
     // What is active is not veiled by what is not.
@@ -77,7 +72,7 @@ export class Balls {
     mesh.frustumCulled = false;
     mesh.matrixAutoUpdate = false;
     this.frames.group(group[0]!.part.frame).add(mesh);
-    this.flocks.set(key, { mesh, room: group.length });
+    this.flocks.set(key, mesh);
     return mesh;
   }
 }

@@ -8,6 +8,8 @@ const STILL = 350;
 /** Pixels drawn for one that is seen, across and down, which smooths edges as a graphics card does. */
 const FINE = 2;
 const MOST = 2;
+/** Of a large window fewer: more pixels than this software draws for so long that hands have to wait. */
+const PIXELS = 8e6;
 /** What drivers without a graphics card call themselves. */
 const SOFTWARE = /swiftshader|llvmpipe|softpipe|lavapipe|basic render|software/i;
 
@@ -17,6 +19,8 @@ export class Draughtsman {
   private readonly renderer: WebGLRenderer;
   private isRough: boolean;
   private drawn_ms = 0;
+  /** Of the picture as it is seen [px]. */
+  private area = 1;
 
   /** `throwShadows` is told whether there are shadows from now on. Throws where there is no WebGL. */
   constructor(private readonly throwShadows: (are: boolean) => void) {
@@ -33,6 +37,7 @@ export class Draughtsman {
   }
 
   resize(width: number, height: number): void {
+    this.area = width * height;
     this.renderer.setPixelRatio(this.ratio);
     this.renderer.setSize(width, height);
   }
@@ -53,7 +58,7 @@ export class Draughtsman {
 
   private get ratio(): number {
     if (!this.isSlow) return Math.min(window.devicePixelRatio, MOST);
-    return this.isRough ? 1 : FINE;
+    return this.isRough ? 1 : Math.min(FINE, Math.max(1, Math.sqrt(PIXELS / this.area)));
   }
 
   private become(isRough: boolean): void {
